@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "brdf/brdf.h"
+#include "image/panorama.h"
+#include "reference/environment_distribution.h"
+#include "reference/sobol.h"
+
+namespace lobelight {
+
+/// The frame of a surface point: orthonormal, right-handed, in world space.
+struct SurfaceFrame {
+  glm::dvec3 tangent;
+  glm::dvec3 bitangent;
+  glm::dvec3 normal;
+};
+
+/// Reflected radiance with its standard error, per channel.
+struct RadianceEstimate {
+  glm::dvec3 radiance;
+  glm::dvec3 standard_error;
+};
+
+/// Estimates L_o(o) = ∫ L_i(i) ρ(i, o) (n·i) di over the hemisphere above a surface by sampling.
+/// Immutable after construction, so that threads can share it. Keeps a reference to the BRDF.
+class Integrator {
+ public:
+  /// `samples`: BRDF samples per estimate, and as many of the environment; rounded up to a power of
+  /// two, at least 16.
+  Integrator(const Panorama& panorama, const Brdf& brdf, int samples);
+
+  /// `view`: unit vector from the surface towards the viewer, in world space. Equal seeds give
+  /// equal results; different seeds, independent ones. 0 below the horizon.
+  RadianceEstimate integrate(const glm::dvec3& view, const SurfaceFrame& frame,
+                             std::uint64_t seed) const;
+
+ private:
+  const Brdf& brdf_;
+  EnvironmentDistribution environment_;
+  SobolPoints points_;
+};
+
+}  // namespace lobelight
