@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/progress.h"
+#include "table/lobe_table.h"
+
+namespace lobelight {
+
+enum class FitMethod {
+  independent,   // every view by itself, as Töral 2015 does; neighbours cannot be interpolated
+  continuation,  // every view from its neighbour's lobes, from normal incidence outwards
+};
+
+// "independent", "continuation"; the inverse throws std::invalid_argument naming the known ones.
+std::string_view to_string(FitMethod method);
+FitMethod fit_method_from_string(std::string_view name);
+
+struct Recipe {
+  std::string brdf = "ward";
+  glm::dvec2 alpha{0.1, 0.1};
+  int lobes = 8;
+  // Elevations × azimuths; 0 = default: 16 × 1 where both widths are equal, 16 × 8 otherwise.
+  glm::ivec2 views{0, 0};
+  FitMethod method = FitMethod::continuation;
+  std::uint64_t seed = 0;
+  int threads = 0;  // zero or negative: every core
+};
+
+constexpr int kMaxLobes = 32;
+constexpr int kMaxViews = 256;
+
+// Throws std::invalid_argument with one sentence that names the key and the value.
+void validate(const Recipe& recipe);
+
+// The recipe's views with the defaults filled in.
+glm::ivec2 resolve_views(const Recipe& recipe);
+
+// How a fit went. View (t, p) is element p · T + t.
+struct FitReport {
+  double seconds = 0.0;
+  std::vector<int> iterations;
+  std::vector<double> log_likelihood;    // final, mean over the slice's mass in nats
+  std::vector<double> first_view_curve;  // log-likelihood of view (0, 0), iteration by iteration
+};
+
+// Fits the recipe's table; the bytes are the same for any number of threads. Throws
+// std::invalid_argument as validate() does and Cancelled. `report` may be null.
+LobeTable fit_table(const Recipe& recipe, Progress& progress, FitReport* report);
+
+}  // namespace lobelight
