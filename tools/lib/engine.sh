@@ -1,0 +1,78 @@
+# shellcheck shell=bash
+# The engine: which Godot is used, and how it is run headless and with a picture.
+
+GODOT_WANTED=4.6
+
+# godot_version PROGRAM: prints the version that PROGRAM reports, or nothing. A path that cannot run gives nothing.
+godot_version() {
+  "$1" --version 2>/dev/null </dev/null | tail -n 1 || true
+}
+
+# need_engine: sets and exports GODOT. Order: $GODOT, then `godot` on PATH if it is the wanted version, then Debian's
+# package unpacked in the cache. An engine that was looked at once is not asked again until its file changes.
+need_engine() {
+  [[ -z ${LOBELIGHT_ENGINE_READY:-} ]] || return 0
+  local found=""
+  if [[ -n ${GODOT:-} ]]; then
+    found=$(command -v -- "$GODOT") || die "GODOT=$GODOT is not a program that can be run"
+    godot_is_wanted "$found" \
+      || die "GODOT=$GODOT reports version '$(godot_version "$found")', but this project needs Godot $GODOT_WANTED"
+  elif found=$(command -v godot) && godot_is_wanted "$found"; then
+    :
+  else
+    found=$CACHE/engine/godot
+    if [[ ! -x $found ]] || ! stamp_is "$CACHE/engine/key" "$(content_hash "$ROOT/tools/setup/engine.sh")"; then
+      need_packages
+      locked "$CACHE/lock/engine" bash "$ROOT/tools/setup/engine.sh"
+    fi
+  fi
+  GODOT=$(readlink -f "$found")
+  LOBELIGHT_ENGINE_READY=1
+  export GODOT LOBELIGHT_ENGINE_READY
+}
+
+# godot_is_wanted PROGRAM: remembers the answer under the file's identity, since asking an engine takes a while.
+godot_is_wanted() {
+  local stamp
+  stamp=$CACHE/engine-checks/$(stat -L -c '%n %i %s %Y' -- "$1" | sha256sum | cut -c 1-16)
+  if [[ ! -f $stamp ]]; then
+    [[ $(godot_version "$1") == "$GODOT_WANTED"[.-]* ]] || return 1
+    write_stamp "$stamp" "$1"
+  fi
+}
+
+# need_display: what a rendered run needs: an X server of its own, or the user's (LOBELIGHT_DISPLAY=real).
+need_display() {
+  if [[ ${LOBELIGHT_DISPLAY:-own} == real ]]; then
+    [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]] \
+      || die "LOBELIGHT_DISPLAY=real asks for your display, but neither DISPLAY nor WAYLAND_DISPLAY is set"
+  else
+    need_packages
+  fi
+}
+
+# godot_headless ARGS…: the engine in this project without a window or a renderer.
+godot_headless() {
+  need_engine
+  "$GODOT" --headless --path "$ROOT" "$@"
+}
+
+# godot_rendered forward_plus|mobile|gl_compatibility ARGS…: the engine in this project, drawing with that renderer.
+godot_rendered() {
+  local renderer=$1
+  local arguments=(--path "$ROOT" --audio-driver Dummy --rendering-method "$renderer")
+  shift
+  case $renderer in
+    forward_plus | mobile) arguments+=(--rendering-driver vulkan) ;;
+    gl_compatibility) arguments+=(--rendering-driver opengl3) ;;
+    *) die "there is no renderer '$renderer'; take forward_plus, mobile or gl_compatibility" ;;
+  esac
+  need_engine
+  need_display
+  if [[ ${LOBELIGHT_DISPLAY:-own} == real ]]; then
+    "$GODOT" "${arguments[@]}" "$@"
+  else
+    xvfb-run --auto-servernum --server-args "-screen 0 1920x1080x24 -nolisten tcp" \
+      "$GODOT" "${arguments[@]}" "$@"
+  fi
+}

@@ -1,0 +1,83 @@
+# shellcheck shell=bash
+# need_…: each makes sure that something is there. Quick and silent when it is; otherwise the work is done by a
+# script below tools/setup, under a lock, so that two runs at once do it once.
+
+# What is looked for, and the Debian package that brings it.
+PACKAGE_PROBES=(
+  "command cmake cmake"
+  "command ninja ninja-build"
+  "command g++ g++"
+  "command git git"
+  "command patchelf patchelf"
+  "command shellcheck shellcheck"
+  "command xvfb-run xvfb"
+  "command xauth xauth"
+  "command flock util-linux"
+  "header glm/glm.hpp libglm-dev"
+  "header doctest/doctest.h doctest-dev"
+  "python3 ensurepip python3-venv"
+  "file /usr/share/keyrings/debian-archive-keyring.gpg debian-archive-keyring"
+)
+
+# missing_packages: prints the packages whose probe finds nothing, one a line.
+missing_packages() {
+  local entry kind wanted package
+  for entry in "${PACKAGE_PROBES[@]}"; do
+    read -r kind wanted package <<<"$entry"
+    case $kind in
+      command) command -v "$wanted" >/dev/null || echo "$package" ;;
+      header) [[ -f /usr/include/$wanted || -f /usr/local/include/$wanted ]] || echo "$package" ;;
+      file) [[ -f $wanted ]] || echo "$package" ;;
+      python3) compgen -G "/usr/lib/python3*/$wanted" >/dev/null || echo "$package" ;;
+    esac
+  done
+}
+
+# need_packages: the system packages, by apt where they are missing.
+need_packages() {
+  [[ -z ${LOBELIGHT_PACKAGES_READY:-} ]] || return 0
+  if [[ -n $(missing_packages) ]]; then
+    bash "$ROOT/tools/setup/packages.sh"
+  fi
+  export LOBELIGHT_PACKAGES_READY=1
+}
+
+# need_python [EXTRA]: sets and exports PYTHON, the interpreter of a virtual environment in the cache with
+# tools/requirements.txt, and tools/requirements-EXTRA.txt if EXTRA is given.
+# shellcheck disable=SC2120 # commands pass EXTRA, this file does not
+need_python() {
+  local extra=${1:-} name=base
+  local requirements=("$ROOT/tools/requirements.txt")
+  if [[ -n $extra ]]; then
+    requirements+=("$ROOT/tools/requirements-$extra.txt")
+    name=$extra
+  fi
+  PYTHON=$CACHE/python/bin/python3
+  export PYTHON
+  if [[ ! -x $PYTHON ]] || ! stamp_is "$CACHE/python/lobelight-$name" "$(content_hash "${requirements[@]}")"; then
+    need_packages
+    locked "$CACHE/lock/python" bash "$ROOT/tools/setup/python.sh" "$extra"
+  fi
+}
+
+# need_openexr: sets OPENEXR_DIR, where static OpenEXR and Imath are installed.
+need_openexr() {
+  OPENEXR_DIR=$CACHE/deps/openexr-$(content_hash "$ROOT/tools/setup/openexr.sh")
+  if [[ ! -f $OPENEXR_DIR/complete ]]; then
+    need_python ""
+    locked "$CACHE/lock/openexr" bash "$ROOT/tools/setup/openexr.sh" "$OPENEXR_DIR"
+  fi
+}
+
+# need_library: the native library, built in build/cmake and installed where lobelight.gdextension looks for it.
+need_library() {
+  need_packages
+  need_openexr
+  locked "$ROOT/build/lock" bash "$ROOT/tools/setup/library.sh" "$OPENEXR_DIR"
+}
+
+# need_import: the project's resources imported and every script of it free of errors.
+need_import() {
+  need_engine
+  locked "$ROOT/build/lock" bash "$ROOT/tools/setup/import.sh"
+}
