@@ -9,8 +9,9 @@
 
 namespace lobelight {
 
-/// Largest panorama that is read, in texels (a 16384 × 16384 square; 3 GiB of floats).
-inline constexpr std::size_t kMaxPanoramaTexels = std::size_t{1} << 28;
+/// Largest panorama that is read: texels in all (16384 × 16384; 3 GiB of floats) and along a side.
+inline constexpr std::int64_t kMaxPanoramaTexels = std::int64_t{1} << 28;
+inline constexpr std::int64_t kMaxPanoramaSide = 65536;
 
 /// A latitude-longitude map of linear radiance.
 struct Panorama {
@@ -33,6 +34,10 @@ glm::dvec2 panorama_position(const glm::dvec3& direction);
 
 /// The unit vector at (u, v), the inverse of panorama_position.
 glm::dvec3 panorama_direction(const glm::dvec2& position);
+
+/// Throws ImageError (with `name` for the file) unless the size is at least 1 × 1 and within the
+/// limits above.
+void check_panorama_size(std::int64_t width, std::int64_t height, const std::string& name);
 
 /// Reads an OpenEXR or a Radiance (.hdr) file; its content says which, not its name.
 /// `path` is UTF-8. Throws ImageError.
