@@ -18,7 +18,8 @@ struct Slice {
 // nodes_per_axis² nodes (rounded up to a multiple of four per axis) drawn through the BRDF's own
 // sampler from points that are the same on every call; fewer come back where some fall below the
 // horizon. The nodes are their own mirror image wherever the slice is: in y = 0 when o_y = 0, in
-// x = 0 when o_x = 0.
-Slice sample_slice(const Brdf& brdf, const glm::dvec3& o, int nodes_per_axis = 64);
+// x = 0 when o_x = 0. `rotation` ∈ [0, 1) turns the points among themselves and keeps that.
+Slice sample_slice(const Brdf& brdf, const glm::dvec3& o, int nodes_per_axis = 64,
+                   double rotation = 0.0);
 
 }  // namespace lobelight

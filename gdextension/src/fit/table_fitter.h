@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "fit/em.h"
 #include "table/lobe_table.h"
 
 namespace lobelight {
@@ -48,8 +49,19 @@ struct FitReport {
   std::vector<double> first_view_curve;  // log-likelihood of view (0, 0), iteration by iteration
 };
 
+// What a recipe does not say, with the values that every baked table uses; tests and benchmarks
+// vary them.
+struct FitOptions {
+  int nodes_per_axis = 64;
+  EmOptions em;
+  // Views in the planes of symmetry get lobes that are their own mirror image as a set
+  // (continuation only).
+  bool keep_mirror_symmetry = true;
+};
+
 // Fits the recipe's table; the bytes are the same for any number of threads. Throws
 // std::invalid_argument as validate() does and Cancelled. `report` may be null.
-LobeTable fit_table(const Recipe& recipe, Progress& progress, FitReport* report);
+LobeTable fit_table(const Recipe& recipe, Progress& progress, FitReport* report,
+                    const FitOptions& options = {});
 
 }  // namespace lobelight

@@ -1,0 +1,142 @@
+#include "table/lobe_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "table/half_float.h"
+#include "table/half_vector.h"
+
+namespace lobelight {
+
+namespace {
+
+constexpr double kHalfPi = 1.57079632679489661923;
+
+double clamp_log2_kappa(double log2_kappa) {
+  // A sharpness of 0 has the logarithm −∞, which the bound takes.
+  return std::clamp(log2_kappa, LobeTable::kMinLog2Kappa, LobeTable::kMaxLog2Kappa);
+}
+
+Lobe decode(const LobeTable::Entry& entry, const glm::dvec2& alpha, const glm::dvec3& o) {
+  const HalfVectorLobe lobe{{entry.x * alpha.x, entry.y * alpha.y}, std::exp2(entry.z)};
+  return {entry.w, from_half_vector(lobe, o)};
+}
+
+// Grid cell of a real coordinate in [0, count − 1]: its lower node and the way to the next.
+struct Cell {
+  int first;
+  int second;
+  double fraction;
+};
+
+Cell locate(double coordinate, int count) {
+  const double c = std::clamp(coordinate, 0.0, static_cast<double>(count - 1));
+  const int first = std::min(static_cast<int>(c), std::max(count - 2, 0));
+  return {first, std::min(first + 1, count - 1), c - first};
+}
+
+}  // namespace
+
+LobeTable::LobeTable(const glm::dvec2& alpha, int lobes, const glm::ivec2& views)
+    : alpha_(alpha), lobes_(lobes), views_(views) {
+  if (!(alpha.x > 0.0) || !(alpha.y > 0.0) || !std::isfinite(alpha.x) || !std::isfinite(alpha.y)) {
+    throw std::invalid_argument("A lobe table needs positive widths alpha.");
+  }
+  if (lobes < 1 || views.x < 2 || views.y < 1) {
+    throw std::invalid_argument(
+        "A lobe table needs at least one lobe, two elevations and one azimuth.");
+  }
+  entries_.assign(index(lobes_, 0, 0), Entry(0.0));
+}
+
+glm::dvec3 LobeTable::view(int t, int p) const {
+  const double elevation = kMaxElevation * t / (views_.x - 1);
+  const double sine = std::sin(elevation);
+  // The ends of the quadrant lie exactly in the planes of symmetry.
+  if (p == 0) return {sine, 0.0, std::cos(elevation)};
+  if (p == views_.y - 1) return {0.0, sine, std::cos(elevation)};
+  const double azimuth = kHalfPi * p / (views_.y - 1);
+  return {sine * std::cos(azimuth), sine * std::sin(azimuth), std::cos(elevation)};
+}
+
+Mixture LobeTable::mixture_at_view(int t, int p) const {
+  const glm::dvec3 o = view(t, p);
+  Mixture mixture;
+  mixture.reserve(static_cast<std::size_t>(lobes_));
+  for (int k = 0; k < lobes_; ++k) mixture.push_back(decode(entry(k, t, p), alpha_, o));
+  return mixture;
+}
+
+void LobeTable::set_mixture_at_view(int t, int p, const Mixture& mixture) {
+  if (mixture.size() != static_cast<std::size_t>(lobes_)) {
+    throw std::invalid_argument("A view takes as many lobes as its table has.");
+  }
+  const glm::dvec3 o = view(t, p);
+  for (int k = 0; k < lobes_; ++k) {
+    const Lobe& lobe = mixture[static_cast<std::size_t>(k)];
+    const HalfVectorLobe h = to_half_vector(lobe.gaussian, o);
+    entries_[index(k, t, p)] = {h.slope.x / alpha_.x, h.slope.y / alpha_.y,
+                                clamp_log2_kappa(std::log2(h.sharpness)), lobe.weight};
+  }
+}
+
+Mixture LobeTable::interpolate(const glm::dvec3& o) const {
+  const double sine = std::hypot(o.x, o.y);
+  const Cell t = locate(std::atan2(sine, o.z) / kMaxElevation * (views_.x - 1), views_.x);
+
+  // The frame in which the entries hold: table axes (x, y) = ±(o.x, o.y) as signs, or o's
+  // projection.
+  glm::dvec2 x_axis(o.x < 0.0 ? -1.0 : 1.0, 0.0);
+  glm::dvec2 y_axis(0.0, o.y < 0.0 ? -1.0 : 1.0);
+  Cell p{0, 0, 0.0};
+  if (is_isotropic()) {
+    x_axis = sine > 0.0 ? glm::dvec2(o.x, o.y) / sine : glm::dvec2(1.0, 0.0);
+    y_axis = {-x_axis.y, x_axis.x};
+  } else {
+    p = locate(std::atan2(std::abs(o.y), std::abs(o.x)) / kHalfPi * (views_.y - 1), views_.y);
+  }
+  const glm::dvec3 local(glm::dot(x_axis, glm::dvec2(o)), glm::dot(y_axis, glm::dvec2(o)), o.z);
+
+  Mixture mixture;
+  mixture.reserve(static_cast<std::size_t>(lobes_));
+  for (int k = 0; k < lobes_; ++k) {
+    const Entry low = glm::mix(entry(k, t.first, p.first), entry(k, t.second, p.first), t.fraction);
+    const Entry high =
+        glm::mix(entry(k, t.first, p.second), entry(k, t.second, p.second), t.fraction);
+    Lobe lobe = decode(glm::mix(low, high, p.fraction), alpha_, local);
+    const glm::dvec3 mean = lobe.gaussian.mean;
+    lobe.gaussian.mean = glm::dvec3(mean.x * x_axis + mean.y * y_axis, mean.z);
+    mixture.push_back(lobe);
+  }
+  return mixture;
+}
+
+std::vector<std::uint16_t> LobeTable::to_rgba16f() const {
+  std::vector<std::uint16_t> texels;
+  texels.reserve(4 * entries_.size());
+  for (const Entry& entry : entries_) {
+    for (int channel = 0; channel < 4; ++channel) {
+      texels.push_back(half_from_double(entry[channel]));
+    }
+  }
+  return texels;
+}
+
+LobeTable LobeTable::from_rgba16f(const glm::dvec2& alpha, int lobes, const glm::ivec2& views,
+                                  const std::vector<std::uint16_t>& texels) {
+  LobeTable table(alpha, lobes, views);
+  if (texels.size() != 4 * table.entries_.size()) {
+    throw std::invalid_argument("The texels do not have the size of the lobe table.");
+  }
+  for (std::size_t n = 0; n < texels.size(); ++n) {
+    const double value = double_from_half(texels[n]);
+    if (!std::isfinite(value)) {
+      throw std::invalid_argument("The texels of a lobe table must be finite numbers.");
+    }
+    table.entries_[n / 4][static_cast<int>(n % 4)] = value;
+  }
+  return table;
+}
+
+}  // namespace lobelight
