@@ -11,7 +11,7 @@ godot_version() {
 # need_engine: sets and exports GODOT. Order: $GODOT, then `godot` on PATH if it is the wanted version, then Debian's
 # package unpacked in the cache. An engine that was looked at once is not asked again until its file changes.
 need_engine() {
-  [[ -z ${LOBELIGHT_ENGINE_READY:-} ]] || return 0
+  [[ -z ${GODOT:-} || ${LOBELIGHT_ENGINE_READY:-} != "$GODOT" ]] || return 0
   local found=""
   if [[ -n ${GODOT:-} ]]; then
     found=$(command -v -- "$GODOT") || die "GODOT=$GODOT is not a program that can be run"
@@ -21,14 +21,20 @@ need_engine() {
     :
   else
     found=$CACHE/engine/godot
-    if [[ ! -x $found ]] || ! stamp_is "$CACHE/engine/key" "$(content_hash "$ROOT/tools/setup/engine.sh")"; then
+    if [[ ! -x $found ]] || ! stamp_is "$CACHE/engine/key" "$(engine_key)"; then
       need_packages
       locked "$CACHE/lock/engine" bash "$ROOT/tools/setup/engine.sh"
     fi
   fi
-  GODOT=$(readlink -f "$found")
-  LOBELIGHT_ENGINE_READY=1
+  [[ $found == /* ]] || found=$PWD/$found
+  GODOT=$found
+  LOBELIGHT_ENGINE_READY=$GODOT
   export GODOT LOBELIGHT_ENGINE_READY
+}
+
+# engine_key: what the engine in the cache depends on; its paths are written into it.
+engine_key() {
+  echo "$(content_hash "$ROOT/tools/setup/engine.sh" "$ROOT/tools/lib/debian.sh") $CACHE"
 }
 
 # godot_is_wanted PROGRAM: remembers the answer under the file's identity, since asking an engine takes a while.
@@ -36,7 +42,7 @@ godot_is_wanted() {
   local stamp
   stamp=$CACHE/engine-checks/$(stat -L -c '%n %i %s %Y' -- "$1" | sha256sum | cut -c 1-16)
   if [[ ! -f $stamp ]]; then
-    [[ $(godot_version "$1") == "$GODOT_WANTED"[.-]* ]] || return 1
+    [[ $(godot_version "$1") == "$GODOT_WANTED".* ]] || return 1
     write_stamp "$stamp" "$1"
   fi
 }
