@@ -1,0 +1,19 @@
+# Third-party packages. Sets nothing; afterwards there are the targets Threads::Threads, glm::glm, doctest::doctest
+# and OpenEXR::OpenEXR, and the function doctest_discover_tests.
+
+set(LOBELIGHT_DEPS_DIR "" CACHE PATH
+  "Where static OpenEXR and Imath are installed (./dev builds them); empty: the system's OpenEXR")
+
+find_package(Threads REQUIRED)
+find_package(glm REQUIRED)
+find_package(doctest REQUIRED)
+include(doctest)
+
+if(LOBELIGHT_DEPS_DIR)
+  # Imath by name, since OpenEXR's own look-up would go through the system's folders too.
+  find_package(Imath CONFIG REQUIRED PATHS "${LOBELIGHT_DEPS_DIR}" NO_DEFAULT_PATH)
+  find_package(OpenEXR CONFIG REQUIRED PATHS "${LOBELIGHT_DEPS_DIR}" NO_DEFAULT_PATH)
+else()
+  find_package(OpenEXR 3.1 CONFIG REQUIRED)
+endif()
+message(STATUS "OpenEXR ${OpenEXR_VERSION} from ${OpenEXR_DIR}")

@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# Builds static, position-independent OpenEXR and Imath from package sources into DIRECTORY: openexr.sh DIRECTORY
+#
+# Static, because neither the engine nor a user's machine can be expected to have them. Everything in them is hidden
+# (API visibility off), so that they cannot clash with another OpenEXR in the same process.
+source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
+source "$ROOT/tools/lib/debian.sh"
+
+OPENEXR_VERSION=3.4.16
+OPENEXR_SHA256=cc59a3ec182d0644e4ce99201d8ef1efcf64b0bdfdd0d49e87036457f1726f1d
+IMATH_VERSION=3.1.12
+IMATH_REVISION=1
+IMATH_SUITE=trixie
+IMATH_SHA256=8a1bc258f3149b5729c2f4f8ffd337c0e57f09096e4ba9784329f40c4a9035da
+
+(($# == 1)) || die "openexr.sh takes the directory to install into"
+target=$1
+[[ ! -f $target/complete ]] || exit 0
+
+downloads=$CACHE/downloads
+openexr_archive=$downloads/openexr-$OPENEXR_VERSION.tar.gz
+imath_archive=$downloads/imath_$IMATH_VERSION.orig.tar.gz
+work=$CACHE/deps/build.$$
+mkdir -p "$downloads" "$work"
+trap 'rm -rf "$work"' EXIT
+
+# has_checksum FILE SHA256: a file that is there but differs is removed, so that it is fetched again.
+has_checksum() {
+  [[ -f $1 ]] || return 1
+  if ! sha256sum --check --status <<<"$2  $1"; then
+    rm -f "$1"
+    return 1
+  fi
+}
+
+fetch_openexr() {
+  need_python ""
+  # pip asks the archive for its metadata on the way, but builds nothing.
+  "$PYTHON" -m pip download --disable-pip-version-check --no-deps --no-binary OpenEXR --dest "$downloads" \
+    "OpenEXR==$OPENEXR_VERSION"
+  has_checksum "$openexr_archive" "$OPENEXR_SHA256"
+}
+
+fetch_imath() {
+  private_apt "$work/apt" "deb-src $IMATH_SUITE"
+  apt-get update
+  cd "$downloads"
+  apt-get source --download-only --tar-only "imath=$IMATH_VERSION-$IMATH_REVISION"
+  has_checksum "$imath_archive" "$IMATH_SHA256"
+}
+
+# build NAME ARCHIVE OPTION…: unpack, configure, build, install below $work/installed.
+build() {
+  local name=$1 archive=$2
+  shift 2
+  mkdir "$work/$name"
+  tar --extract --file "$archive" --directory "$work/$name" --strip-components 1
+  cmake -S "$work/$name" -B "$work/$name-build" -G Ninja \
+    -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG" "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" \
+    -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF \
+    -DCMAKE_C_VISIBILITY_PRESET=hidden -DCMAKE_CXX_VISIBILITY_PRESET=hidden -DCMAKE_VISIBILITY_INLINES_HIDDEN=ON \
+    -DCMAKE_INSTALL_PREFIX="$target" -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_PREFIX_PATH="$work/installed$target" "$@"
+  cmake --build "$work/$name-build" --parallel "$JOBS"
+  DESTDIR="$work/installed" cmake --install "$work/$name-build"
+}
+
+build_imath() {
+  build imath "$imath_archive" -DIMATH_ENABLE_API_VISIBILITY=OFF -DIMATH_INSTALL_PKG_CONFIG=OFF -DPYTHON=OFF
+}
+
+build_openexr() {
+  build openexr "$openexr_archive" -DOPENEXR_ENABLE_API_VISIBILITY=OFF -DOPENEXR_INSTALL_PKG_CONFIG=OFF \
+    -DOPENEXR_BUILD_TOOLS=OFF -DOPENEXR_INSTALL_TOOLS=OFF -DOPENEXR_BUILD_EXAMPLES=OFF -DOPENEXR_INSTALL_DOCS=OFF \
+    -DOPENEXR_BUILD_PYTHON=OFF -DOPENEXR_TEST_LIBRARIES=OFF -DOPENEXR_TEST_TOOLS=OFF -DOPENEXR_TEST_PYTHON=OFF \
+    -DOPENEXR_FORCE_INTERNAL_DEFLATE=ON -DOPENEXR_FORCE_INTERNAL_OPENJPH=ON \
+    -DImath_DIR="$work/installed$target/lib/cmake/Imath"
+}
+
+offline="Or put that file, with SHA-256"
+has_checksum "$openexr_archive" "$OPENEXR_SHA256" \
+  || step --advice "$offline $OPENEXR_SHA256, at $openexr_archive." "Fetching the source of OpenEXR $OPENEXR_VERSION" \
+    fetch_openexr
+has_checksum "$imath_archive" "$IMATH_SHA256" \
+  || step --advice "$offline $IMATH_SHA256, at $imath_archive." "Fetching the source of Imath $IMATH_VERSION" fetch_imath
+step "Building Imath $IMATH_VERSION" build_imath
+step "Building OpenEXR $OPENEXR_VERSION" build_openexr
+
+rm -rf "$target"
+mkdir -p "$(dirname "$target")"
+mv "$work/installed$target" "$target"
+touch "$target/complete"
