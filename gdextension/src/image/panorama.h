@@ -9,41 +9,41 @@
 
 namespace lobelight {
 
-/// Largest panorama that is read: texels in all (16384 × 16384; 3 GiB of floats) and along a side.
+// Largest panorama that is read: texels in all (16384 × 16384; 3 GiB of floats) and along a side.
 inline constexpr std::int64_t kMaxPanoramaTexels = std::int64_t{1} << 28;
 inline constexpr std::int64_t kMaxPanoramaSide = 65536;
 
-/// A latitude-longitude map of linear radiance.
+// A latitude-longitude map of linear radiance.
 struct Panorama {
-  int width = 0;           ///< Texels around the vertical axis.
-  int height = 0;          ///< Texels from straight up (row 0) to straight down.
-  std::vector<float> rgb;  ///< width · height · 3 values, row by row, as the file holds them.
+  int width = 0;           // Texels around the vertical axis.
+  int height = 0;          // Texels from straight up (row 0) to straight down.
+  std::vector<float> rgb;  // width · height · 3 values, row by row, as the file holds them.
 
-  /// Radiance from `direction` (a unit vector, y up): bilinear, texel centres at (i + ½)/width and
-  /// (j + ½)/height, wrapped around the axis, clamped at the poles. A negative or non-finite value
-  /// counts as 0. The panorama must not be empty.
+  // Radiance from `direction` (a unit vector, y up): bilinear, texel centres at (i + ½)/width and
+  // (j + ½)/height, wrapped around the axis, clamped at the poles. A negative or non-finite value
+  // counts as 0. The panorama must not be empty.
   glm::dvec3 sample(const glm::dvec3& direction) const;
 
-  /// Sets the negative and the non-finite values to 0. Returns how many texels had one.
+  // Sets the negative and the non-finite values to 0. Returns how many texels had one.
   std::size_t sanitise();
 };
 
-/// Position of `direction` (a unit vector) on a panorama, as Godot's PanoramaSkyMaterial has it:
-///   u = fract(atan2(d.x, −d.z)/2π),  v = acos(d.y)/π;  u in [0, 1), v in [0, 1] from the top.
+// Position of `direction` (a unit vector) on a panorama, as Godot's PanoramaSkyMaterial has it:
+//   u = fract(atan2(d.x, −d.z)/2π),  v = acos(d.y)/π;  u in [0, 1), v in [0, 1] from the top.
 glm::dvec2 panorama_position(const glm::dvec3& direction);
 
-/// The unit vector at (u, v), the inverse of panorama_position.
+// The unit vector at (u, v), the inverse of panorama_position.
 glm::dvec3 panorama_direction(const glm::dvec2& position);
 
-/// Throws ImageError (with `name` for the file) unless the size is at least 1 × 1 and within the
-/// limits above.
+// Throws ImageError (with `name` for the file) unless the size is at least 1 × 1 and within the
+// limits above.
 void check_panorama_size(std::int64_t width, std::int64_t height, const std::string& name);
 
-/// Reads an OpenEXR or a Radiance (.hdr) file; its content says which, not its name.
-/// `path` is UTF-8. Throws ImageError.
+// Reads an OpenEXR or a Radiance (.hdr) file; its content says which, not its name.
+// `path` is UTF-8. Throws ImageError.
 Panorama load_panorama(const std::string& path);
 
-/// The same for a file that is already in memory; `name` stands for it in messages.
+// The same for a file that is already in memory; `name` stands for it in messages.
 Panorama decode_panorama(const std::vector<std::uint8_t>& bytes, const std::string& name);
 
 }  // namespace lobelight

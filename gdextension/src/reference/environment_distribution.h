@@ -3,43 +3,64 @@
 #include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <vector>
 
 #include "image/panorama.h"
+#include "reference/light_clusters.h"
 
 namespace lobelight {
 
-/// A direction drawn from an environment.
+// Radiance from a direction and the density with which it is drawn.
 struct EnvironmentSample {
   glm::dvec3 direction;
   glm::dvec3 radiance;
-  double pdf;  ///< Per steradian.
+  double pdf;  // Per steradian.
 };
 
-/// Radiance of a panorama together with a density over directions that follows what stands out of
-/// its mean.
+// How much each cluster of an environment counts at one surface point.
+struct ClusterChoice {
+  std::vector<double> cumulative;  // Probabilities of the clusters: clusters + 1 values, 0 to 1.
+  std::vector<double> scale;       // Probability of each over its share of the light.
+
+  bool empty() const { return scale.empty(); }
+};
+
+// A panorama's radiance, with densities over directions for importance sampling.
+//
+// A texel's weight is its brightness above the map's mean times its solid angle. The mean is left
+// out because samples of the BRDF cover it better: Karlík et al. 2019, "MIS compensation:
+// optimizing sampling techniques in multiple importance sampling", section 5. A direction is drawn
+// by choosing a cluster, a texel in it and a place under the texel's interpolation tent; so the
+// density is the bilinear interpolation of weights, just as the radiance is that of values, and
+// positive wherever a bright texel reaches.
 class EnvironmentDistribution {
  public:
-  /// Takes a copy of the panorama; its negative and non-finite values count as 0.
+  // Copies what it needs. Negative and non-finite values count as 0. Throws std::invalid_argument
+  // when the panorama is empty or its sizes do not fit together.
   explicit EnvironmentDistribution(const Panorama& panorama);
 
-  /// False where nothing stands out of the mean (a constant panorama): then there is no density.
-  bool can_sample() const;
+  // Empty for a constant panorama, where nothing stands out.
+  const std::vector<LightCluster>& clusters() const { return light_.clusters; }
 
-  /// `u` in [0, 1)². Only if can_sample().
-  EnvironmentSample sample(const glm::dvec2& u) const;
+  // Chooses clusters in proportion to `importance` (one value ≥ 0 each) times their share of the
+  // light. Empty when all products are 0.
+  ClusterChoice choose_by(const std::vector<double>& importance) const;
 
-  /// Radiance and density (0 unless can_sample()) at a unit vector.
-  EnvironmentSample at(const glm::dvec3& direction) const;
+  // Draws a direction; u in [0, 1)². The choice must not be empty.
+  EnvironmentSample sample(const ClusterChoice& choice, const glm::dvec2& u) const;
+
+  // Radiance and density (0 if the choice is empty) at a unit vector.
+  EnvironmentSample at(const ClusterChoice& choice, const glm::dvec3& direction) const;
 
  private:
-  EnvironmentSample interpolate(const glm::dvec2& position, const glm::dvec3& direction) const;
+  EnvironmentSample interpolate(const ClusterChoice& choice, const glm::dvec2& position,
+                                const glm::dvec3& direction) const;
 
   int width_;
   int height_;
-  std::vector<glm::vec4> texels_;     // radiance, and the density over the unit square of (u, v)
-  std::vector<double> rows_;          // cumulative over the rows, height + 1 values
-  std::vector<double> columns_;       // per row cumulative over the columns, width + 1 values each
+  std::vector<glm::vec4> texels_;  // Radiance, and the density over the unit square of (u, v).
+  LightClusters light_;
 };
 
 }  // namespace lobelight

@@ -10,33 +10,37 @@
 
 namespace lobelight {
 
-/// The frame of a surface point: orthonormal, right-handed, in world space.
+// The frame of a surface point: orthonormal, right-handed, in world space.
 struct SurfaceFrame {
   glm::dvec3 tangent;
   glm::dvec3 bitangent;
   glm::dvec3 normal;
 };
 
-/// Reflected radiance with its standard error, per channel.
+// Reflected radiance with its standard error, per channel.
 struct RadianceEstimate {
   glm::dvec3 radiance;
   glm::dvec3 standard_error;
 };
 
-/// Estimates L_o(o) = ∫ L_i(i) ρ(i, o) (n·i) di over the hemisphere above a surface by sampling.
-/// Immutable after construction, so that threads can share it. Keeps a reference to the BRDF.
+// Estimates L_o(o) = ∫ L_i(i) ρ(i, o) (n·i) di over the hemisphere above a surface by sampling.
+// Immutable after construction, so that threads can share it. Keeps a reference to the BRDF.
 class Integrator {
  public:
-  /// `samples`: BRDF samples per estimate, and as many of the environment; rounded up to a power of
-  /// two, at least 16.
+  // `samples`: BRDF samples per estimate, and as many of the environment; rounded up to a power of
+  // two, at least 16.
   Integrator(const Panorama& panorama, const Brdf& brdf, int samples);
 
-  /// `view`: unit vector from the surface towards the viewer, in world space. Equal seeds give
-  /// equal results; different seeds, independent ones. 0 below the horizon.
+  // `view`: unit vector from the surface towards the viewer, in world space. Equal seeds give
+  // equal results; different seeds, independent ones. 0 below the horizon.
   RadianceEstimate integrate(const glm::dvec3& view, const SurfaceFrame& frame,
                              std::uint64_t seed) const;
 
  private:
+  ClusterChoice choose_clusters(const glm::dvec3& o, const SurfaceFrame& frame) const;
+  glm::dvec3 batch(const glm::dvec3& o, const SurfaceFrame& frame, const ClusterChoice& choice,
+                   std::uint64_t seed) const;
+
   const Brdf& brdf_;
   EnvironmentDistribution environment_;
   SobolPoints points_;

@@ -13,28 +13,28 @@
 namespace lobelight {
 
 struct SphereOptions {
-  int size = 256;          ///< Width and height in pixels, 1 to 8192.
-  int samples = 2048;      ///< BRDF samples a pixel, and as many of the environment; 16 to 2^24.
-  std::uint64_t seed = 0;  ///< Different seeds give independent noise.
-  int threads = 0;         ///< 0: all cores. The picture does not depend on it.
+  int size = 256;          // Width and height in pixels, 1 to 8192.
+  int samples = 2048;      // BRDF samples a pixel, and as many of the environment; 16 to 2^24.
+  std::uint64_t seed = 0;  // Different seeds give independent noise.
+  int threads = 0;         // 0: all cores. The picture does not depend on it.
 };
 
-/// A unit sphere from +z, orthographic. Linear radiance, background 0.
+// A unit sphere from +z, orthographic. Linear radiance, background 0.
 struct SphereImage {
   int size = 0;
-  std::vector<float> radiance;        ///< size · size · 3, row by row from the top.
-  std::vector<float> standard_error;  ///< Of the same layout.
+  std::vector<float> radiance;        // size · size · 3, row by row from the top.
+  std::vector<float> standard_error;  // Of the same layout.
 };
 
-/// Throws std::invalid_argument with a sentence that names the option and its range.
+// Throws std::invalid_argument with a sentence that names the option and its range.
 void validate(const SphereOptions& options);
 
-/// The frame of the sphere at pixel (column, row): x = (2c+1)/size − 1, y = 1 − (2r+1)/size,
-/// n = (x, y, √(1−x²−y²)), tangent = normalize((0,1,0) × n). Empty beside the sphere.
+// The frame of the sphere at pixel (column, row): x = (2c+1)/size − 1, y = 1 − (2r+1)/size,
+// n = (x, y, √(1−x²−y²)), tangent = normalize((0,1,0) × n). Empty beside the sphere.
 std::optional<SurfaceFrame> sphere_frame(int column, int row, int size);
 
-/// Renders the sphere lit by `panorama`. Throws Cancelled when `progress` is cancelled, and
-/// std::invalid_argument for an empty panorama or invalid options.
+// Renders the sphere lit by `panorama`. Throws Cancelled when `progress` is cancelled, and
+// std::invalid_argument for an empty panorama or invalid options.
 SphereImage render_sphere(const Panorama& panorama, const Brdf& brdf, const SphereOptions& options,
                           Progress& progress);
 
