@@ -1,0 +1,12 @@
+#pragma once
+
+#include <godot_cpp/subset/packed_array.hpp>
+
+namespace godot {
+
+class PackedInt32Array
+    : public subset::PackedArray<GDEXTENSION_VARIANT_TYPE_PACKED_INT32_ARRAY, std::int32_t,
+                                 &subset::Interface::packed_int32_array_operator_index_const,
+                                 &subset::Interface::packed_int32_array_operator_index> {};
+
+}  // namespace godot

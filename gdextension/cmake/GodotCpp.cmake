@@ -1,0 +1,44 @@
+# Where the C++ API of the engine comes from. Makes the target lobelight_godot_cpp and says which
+# of these it stands for:
+#   1. a godot-cpp package with a CMake configuration (Conan: godot-cpp::godot-cpp)
+#   2. the vcpkg port (unofficial::godot::cpp)
+#   3. godot-cpp's own sources in the directory GODOT_CPP_SOURCE_DIR
+#   4. the subset of godot-cpp in binding/, which needs nothing else
+set(GODOT_CPP_SOURCE_DIR "" CACHE PATH "Directory of godot-cpp's sources; built with the library if no package of godot-cpp is found")
+
+add_library(lobelight_godot_cpp INTERFACE)
+
+find_package(godot-cpp CONFIG QUIET)
+if(NOT godot-cpp_FOUND)
+  find_package(unofficial-godot-cpp CONFIG QUIET)
+endif()
+
+if(godot-cpp_FOUND)
+  set(_godot_cpp_target godot-cpp::godot-cpp)
+  message(STATUS "godot-cpp: package in ${godot-cpp_DIR}")
+elseif(unofficial-godot-cpp_FOUND)
+  set(_godot_cpp_target unofficial::godot::cpp)
+  message(STATUS "godot-cpp: vcpkg package in ${unofficial-godot-cpp_DIR}")
+elseif(GODOT_CPP_SOURCE_DIR)
+  if(NOT EXISTS "${GODOT_CPP_SOURCE_DIR}/CMakeLists.txt")
+    message(FATAL_ERROR "GODOT_CPP_SOURCE_DIR: there is no CMakeLists.txt in ${GODOT_CPP_SOURCE_DIR}")
+  endif()
+  # The engine reloads the library when it has changed: its objects have to survive that.
+  set(GODOTCPP_USE_HOT_RELOAD ON CACHE BOOL "Support hot reload")
+  set(GODOTCPP_TARGET editor CACHE STRING "Which target to generate")
+  set(GODOTCPP_API_VERSION 4.6 CACHE STRING "The Godot API version to target")
+  add_subdirectory("${GODOT_CPP_SOURCE_DIR}" godot-cpp EXCLUDE_FROM_ALL)
+  set(_godot_cpp_target godot::cpp)
+  message(STATUS "godot-cpp: sources in ${GODOT_CPP_SOURCE_DIR}")
+else()
+  add_subdirectory(binding)
+  set(_godot_cpp_target lobelight_binding)
+  message(STATUS "godot-cpp: the subset in ${CMAKE_CURRENT_SOURCE_DIR}/binding")
+endif()
+
+target_link_libraries(lobelight_godot_cpp INTERFACE ${_godot_cpp_target})
+if(NOT _godot_cpp_target STREQUAL lobelight_binding)
+  # Its headers are not held to this project's warnings.
+  get_target_property(_godot_cpp_includes ${_godot_cpp_target} INTERFACE_INCLUDE_DIRECTORIES)
+  target_include_directories(lobelight_godot_cpp SYSTEM INTERFACE ${_godot_cpp_includes})
+endif()

@@ -1,0 +1,20 @@
+# LOBELIGHT_LIBRARY_NAME: file name of the library for the system that is built for, as
+# addons/lobelight/lobelight.gdextension lists it.
+string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" _processor)
+if(_processor MATCHES "^(x86_64|amd64)$")
+  set(_architecture x86_64)
+elseif(_processor MATCHES "^(aarch64|arm64)$")
+  set(_architecture arm64)
+else()
+  message(FATAL_ERROR "There is no Lobelight library for the processor ${CMAKE_SYSTEM_PROCESSOR}")
+endif()
+
+if(CMAKE_SYSTEM_NAME STREQUAL Linux)
+  set(LOBELIGHT_LIBRARY_NAME "liblobelight.linux.editor.${_architecture}.so")
+elseif(CMAKE_SYSTEM_NAME STREQUAL Windows)
+  set(LOBELIGHT_LIBRARY_NAME "liblobelight.windows.editor.${_architecture}.dll")
+elseif(CMAKE_SYSTEM_NAME STREQUAL Darwin)
+  set(LOBELIGHT_LIBRARY_NAME "liblobelight.macos.editor.universal.dylib")
+else()
+  message(FATAL_ERROR "There is no Lobelight library for ${CMAKE_SYSTEM_NAME}")
+endif()

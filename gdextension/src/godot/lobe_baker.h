@@ -1,0 +1,27 @@
+#pragma once
+
+#include <godot_cpp/variant/vector2.hpp>
+#include <godot_cpp/variant/vector3.hpp>
+
+#include "godot/lobe_task.h"
+
+namespace lobelight {
+
+// Recipe in, lobe table out.
+class LobeBaker : public LobeTask {
+  GDCLASS(LobeBaker, LobeTask)
+
+ public:
+  godot::Dictionary bake(const godot::Dictionary& recipe) const;
+
+  // NaN, and an error in the log, for what `bake` would refuse and for a view below the horizon.
+  static double directional_albedo(const godot::String& brdf, const godot::Vector2& alpha,
+                                   const godot::Vector3& view);
+
+ protected:
+  static void _bind_methods();
+
+  Work prepare(const godot::Dictionary& recipe) const override;
+};
+
+}  // namespace lobelight

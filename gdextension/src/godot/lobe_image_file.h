@@ -1,0 +1,21 @@
+#pragma once
+
+#include <godot_cpp/classes/ref_counted.hpp>
+#include <godot_cpp/core/class_db.hpp>
+
+namespace lobelight {
+
+// Image files as OpenEXR and the core read and write them, which is more than the engine does.
+class LobeImageFile : public godot::RefCounted {
+  GDCLASS(LobeImageFile, godot::RefCounted)
+
+ public:
+  static godot::Dictionary load_panorama(const godot::String& path);
+  static godot::String save_exr(const godot::String& path, std::int32_t width, std::int32_t height,
+                                const godot::PackedFloat32Array& pixels);
+
+ protected:
+  static void _bind_methods();
+};
+
+}  // namespace lobelight
