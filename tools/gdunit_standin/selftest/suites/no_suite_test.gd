@@ -1,0 +1,5 @@
+extends Node
+
+
+func test_nothing() -> void:
+	pass

@@ -1,0 +1,5 @@
+extends GdUnitTestSuite
+
+
+func helper() -> void:
+	pass
