@@ -3,7 +3,7 @@ extends SceneTree
 
 enum ExitCode { OK = 0, FAILED = 100, ORPHANS = 101, HEADLESS = 103 }
 
-const CommandLine := preload("res://addons/gdUnit4/src/standin/command_line.gd")
+const Arguments := preload("res://addons/gdUnit4/src/standin/arguments.gd")
 const ErrorWatch := preload("res://addons/gdUnit4/src/standin/error_watch.gd")
 const JUnitReport := preload("res://addons/gdUnit4/src/standin/junit_report.gd")
 const Record := preload("res://addons/gdUnit4/src/standin/test_record.gd")
@@ -19,13 +19,13 @@ var _ended := false
 
 func _initialize() -> void:
 	print("gdUnit4 stand-in (the real gdUnit4 is not installed in addons/gdUnit4)")
-	var command_line := CommandLine.new(OS.get_cmdline_args(), "GdUnitCmdTool.gd")
-	if command_line.defect:
-		_end_early(command_line.defect, ExitCode.FAILED)
-	elif DisplayServer.get_name() == "headless" and not command_line.accepts_headless:
+	var arguments := Arguments.new(OS.get_cmdline_args(), "GdUnitCmdTool.gd")
+	if arguments.defect:
+		_end_early(arguments.defect, ExitCode.FAILED)
+	elif DisplayServer.get_name() == "headless" and not arguments.accepts_headless:
 		_end_early("headless mode needs --ignoreHeadlessMode", ExitCode.HEADLESS)
 	else:
-		_run(command_line)
+		_run(arguments)
 
 
 func _process(_delta: float) -> bool:
@@ -42,17 +42,17 @@ func _finalize() -> void:
 		quit(ExitCode.FAILED)
 
 
-func _run(command_line: CommandLine) -> void:
+func _run(arguments: Arguments) -> void:
 	OS.add_logger(_watch)
 	_runner = TestRunner.new(self, _watch)
-	_runner.stops_at_failure = not command_line.continues
+	_runner.stops_at_failure = not arguments.continues
 	_runner.last_frame = Engine.get_process_frames()
 	await process_frame
 	print("stand-in: begin")
-	await _runner.run(command_line.paths, command_line.ignored)
+	await _runner.run(arguments.paths, arguments.ignored)
 	for error in _watch.collect_errors():
 		_runner.add_error("after the last suite", error)
-	var report := command_line.report_directory.path_join("report_1/results.xml")
+	var report := arguments.report_directory.path_join("report_1/results.xml")
 	var error := JUnitReport.write(report, _runner.results)
 	if error != OK:
 		_runner.add_error(report, "cannot be written: " + error_string(error))

@@ -1,0 +1,113 @@
+#!/usr/bin/env bash
+# What the commands do with bad input: one clear line on stderr, a non-zero exit, and nothing is written.
+set -uo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+environment=$root/tests/data/forest.exr
+passed=0
+failed=0
+
+# refuses NAME EXPECTED_TEXT COMMAND…: runs ./dev COMMAND in an empty folder and checks how it ends.
+refuses() {
+  local name=$1 text=$2 status=0 problem=""
+  shift 2
+  rm -rf "$work/run"
+  mkdir "$work/run"
+  (cd "$work/run" && timeout 120 "$root/dev" "$@") >"$work/stdout" 2>"$work/stderr" </dev/null || status=$?
+  if ((status == 0)); then
+    problem="ended with 0"
+  elif ((status >= 124)); then
+    problem="crashed or took too long (status $status)"
+  elif (($(wc -l <"$work/stderr") != 1)); then
+    problem="wrote $(wc -l <"$work/stderr") lines to stderr, expected 1"
+  elif ! grep -qF -- "$text" "$work/stderr"; then
+    problem="does not say '$text'"
+  elif [[ -s $work/stdout ]]; then
+    problem="wrote to stdout"
+  elif [[ -n $(ls -A "$work/run") ]]; then
+    problem="left behind: $(ls -A "$work/run")"
+  fi
+  if [[ -z $problem ]]; then
+    passed=$((passed + 1))
+    echo "  $name: passed"
+  else
+    failed=$((failed + 1))
+    echo "  $name: FAILED, $problem"
+    sed 's/^/    | /' "$work/stdout" "$work/stderr"
+  fi
+}
+
+# bake_refuses NAME EXPECTED_TEXT OPTION…: ./dev bake with one thing wrong.
+bake_refuses() {
+  local name=$1 text=$2
+  shift 2
+  refuses "bake, $name" "$text" bake "$@"
+}
+
+compare_refuses() {
+  local name=$1 text=$2
+  shift 2
+  refuses "compare, $name" "$text" compare "$@"
+}
+
+good_bake=(--brdf ward --lobes 4 --out table.res)
+bake_refuses "alpha of zero" "alpha" "${good_bake[@]}" --alpha 0,0.1
+bake_refuses "negative alpha" "alpha" "${good_bake[@]}" --alpha 0.1,-0.1
+bake_refuses "alpha that is no number" "alpha" "${good_bake[@]}" --alpha 0.1,wide
+bake_refuses "alpha that is not finite" "alpha" "${good_bake[@]}" --alpha 0.1,inf
+bake_refuses "alpha with three numbers" "alpha" "${good_bake[@]}" --alpha 0.1,0.1,0.1
+bake_refuses "no alpha" "alpha" "${good_bake[@]}"
+bake_refuses "no lobe" "lobes" --brdf ward --alpha 0.1,0.1 --lobes 0 --out table.res
+bake_refuses "a thousand lobes" "lobes" --brdf ward --alpha 0.1,0.1 --lobes 1000 --out table.res
+bake_refuses "lobes that are no number" "lobes" --brdf ward --alpha 0.1,0.1 --lobes many --out table.res
+bake_refuses "an unknown BRDF" "phong" --brdf phong --alpha 0.1,0.1 --lobes 4 --out table.res
+bake_refuses "an unknown method" "guessing" "${good_bake[@]}" --alpha 0.1,0.1 --method guessing
+bake_refuses "one view" "views" "${good_bake[@]}" --alpha 0.1,0.1 --views 1,1
+bake_refuses "no output" "out" --brdf ward --alpha 0.1,0.1 --lobes 4
+bake_refuses "an output with the wrong ending" "table.png" \
+  --brdf ward --alpha 0.1,0.1 --lobes 4 --out table.png
+bake_refuses "an output in a missing folder" "missing/table.res" \
+  --brdf ward --alpha 0.1,0.1 --lobes 4 --out missing/table.res
+bake_refuses "an unknown option" "--colour" "${good_bake[@]}" --alpha 0.1,0.1 --colour red
+bake_refuses "an option without a value" "--alpha" "${good_bake[@]}" --alpha
+bake_refuses "a missing recipe" "no_recipe.json" --recipe no_recipe.json --out table.res
+
+good_compare=(--brdf ward --alpha 0.1,0.1 --size 16 --out pictures)
+echo "This is text, not a picture." >"$work/text.exr"
+echo "This is text, not a picture." >"$work/text.hdr"
+head -c 3000 "$environment" >"$work/cut.exr"
+: >"$work/empty.exr"
+compare_refuses "a missing environment" "nowhere.exr" "${good_compare[@]}" --methods gmm4 --env nowhere.exr
+compare_refuses "no environment" "env" "${good_compare[@]}" --methods gmm4
+compare_refuses "text in an .exr" "text.exr" "${good_compare[@]}" --methods gmm4 --env "$work/text.exr"
+compare_refuses "text in a .hdr" "text.hdr" "${good_compare[@]}" --methods gmm4 --env "$work/text.hdr"
+compare_refuses "an EXR that is cut off" "cut.exr" "${good_compare[@]}" --methods gmm4 --env "$work/cut.exr"
+compare_refuses "an empty file" "empty.exr" "${good_compare[@]}" --methods gmm4 --env "$work/empty.exr"
+compare_refuses "a folder for an environment" "$work" "${good_compare[@]}" --methods gmm4 --env "$work"
+compare_refuses "an unknown method" "magic8" "${good_compare[@]}" --methods magic8 --env "$environment"
+compare_refuses "a method that comes later" "not available yet" \
+  "${good_compare[@]}" --methods gmm4,fis40 --env "$environment"
+compare_refuses "a method without lobes" "gmm0" "${good_compare[@]}" --methods gmm0 --env "$environment"
+compare_refuses "a method with a thousand lobes" "gmm1000" \
+  "${good_compare[@]}" --methods gmm1000 --env "$environment"
+compare_refuses "no method" "methods" "${good_compare[@]}" --env "$environment"
+compare_refuses "alpha of zero" "alpha" \
+  --brdf ward --alpha 0,0 --size 16 --out pictures --methods gmm4 --env "$environment"
+compare_refuses "an unknown BRDF" "phong" \
+  --brdf phong --alpha 0.1,0.1 --size 16 --out pictures --methods gmm4 --env "$environment"
+compare_refuses "a size of zero" "size" \
+  --brdf ward --alpha 0.1,0.1 --size 0 --out pictures --methods gmm4 --env "$environment"
+compare_refuses "an unknown renderer" "vulkan9" \
+  "${good_compare[@]}" --methods gmm4 --env "$environment" --renderer vulkan9
+
+refuses "demo, an unknown option" "--colour" demo --colour red
+refuses "demo, an environment that does not exist" "--env" demo --env 17
+refuses "demo, an unknown renderer" "vulkan9" demo --renderer vulkan9
+refuses "test, an unknown group" "no-such-group" test no-such-group
+refuses "an unknown command" "no-such-command" no-such-command
+refuses "a command that comes later" "not available yet" report
+
+echo "commands: $passed passed, $failed failed"
+((failed == 0))

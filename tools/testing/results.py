@@ -1,0 +1,175 @@
+"""Judges what a test runner did, and adds the runners up.
+
+judge: reads a runner's exit status, its JUnit report or closing line and its log, prints what went wrong and one
+summary line, and writes the outcome as JSON. A runner that crashed, left no report or ran no test has failed, and so
+has one whose engine reported errors or leaks that no test answers for.
+
+total: adds up outcomes and prints the last line of `./dev test`, "N passed, N failed".
+"""
+
+import argparse
+import json
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+# What the engine says when something is wrong, at the start of a line of its output.
+ENGINE_PROBLEM = re.compile(
+    r"^(?:USER )?(?:SCRIPT |SHADER )?ERROR:|^Parse Error|^WARNING: .*(?:leaked|orphan)|^Leaked instance|^Orphan"
+    r"|^handle_crash",
+    re.IGNORECASE,
+)
+
+# The engine's own noise, with the reason why it says nothing about this project.
+KNOWN_NOISE: list[tuple[re.Pattern[str], str]] = []
+
+CLOSING_LINE = re.compile(r"(?P<name>[\w -]+): (?P<passed>\d+) passed, (?P<failed>\d+) failed")
+STANDIN_BEGIN = "stand-in: begin"
+STANDIN_END = re.compile(
+    r"stand-in: end, (?P<passed>\d+) passed, (?P<failed>\d+) failed, (?P<skipped>\d+) skipped,"
+)
+ESCAPE_SEQUENCE = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
+
+
+@dataclass
+class Outcome:
+    """What one runner did. `problems` are sentences; each that is no test's own failure counts as one failure."""
+
+    runner: str
+    log: str
+    passed: int = 0
+    failed: int = 0
+    skipped: int = 0
+    problems: list[str] = field(default_factory=list)
+
+    def add_problem(self, sentence: str) -> None:
+        self.failed += 1
+        self.problems.append(sentence)
+
+    def summary(self) -> str:
+        skipped = f", {self.skipped} skipped" if self.skipped else ""
+        return f"{self.runner}: {self.passed} passed, {self.failed} failed{skipped}"
+
+
+def read_junit(outcome: Outcome, path: Path) -> None:
+    """Counts the test cases of a JUnit report, one failure for each case that has any."""
+    try:
+        cases = list(ElementTree.parse(path).iter("testcase"))
+    except (OSError, ElementTree.ParseError) as error:
+        outcome.add_problem(f"there is no readable report ({error})")
+        return
+    for case in cases:
+        wrong = [child for child in case if child.tag in ("failure", "error")]
+        if wrong:
+            message = " ".join((wrong[0].get("message") or wrong[0].text or "").split())
+            outcome.add_problem(f"{case.get('classname')} > {case.get('name')}: {message}")
+        elif case.find("skipped") is not None or case.get("status") in ("notrun", "disabled"):
+            outcome.skipped += 1
+        else:
+            outcome.passed += 1
+
+
+def read_closing_line(outcome: Outcome, lines: list[str]) -> None:
+    """Takes the counts from the last line, `NAME: N passed, N failed`."""
+    match = CLOSING_LINE.fullmatch(lines[-1]) if lines else None
+    if match is None:
+        outcome.add_problem("the runner ended without its closing line")
+        return
+    outcome.passed += int(match["passed"])
+    outcome.failed += int(match["failed"])
+    outcome.problems += [line.strip() for line in lines if " FAILED" in line]
+
+
+def check_standin_end(outcome: Outcome, lines: list[str]) -> None:
+    """The stand-in's end marker has to be there, and to agree with the report."""
+    matches = [match for match in map(STANDIN_END.match, lines) if match]
+    if len(matches) != 1:
+        outcome.add_problem("the engine ended before the tests did")
+        return
+    counted = (outcome.passed, outcome.failed, outcome.skipped)
+    said = tuple(int(matches[0][key]) for key in ("passed", "failed", "skipped"))
+    if counted != said:
+        outcome.add_problem(f"the report counts {counted}, the runner {said} (passed, failed, skipped)")
+
+
+def check_engine_log(outcome: Outcome, lines: list[str]) -> None:
+    """Counts the engine's complaints as failures.
+
+    Between its begin and end lines the stand-in has already charged them to the tests they belong to.
+    """
+    inside_tests = False
+    for number, line in enumerate(lines, start=1):
+        if line == STANDIN_BEGIN:
+            inside_tests = True
+        elif STANDIN_END.match(line):
+            inside_tests = False
+        elif not inside_tests and ENGINE_PROBLEM.search(line) and not is_known_noise(line):
+            outcome.add_problem(f"{outcome.log}:{number}: {line}")
+
+
+def is_known_noise(line: str) -> bool:
+    return any(pattern.search(line) for pattern, _reason in KNOWN_NOISE)
+
+
+def judge(arguments: argparse.Namespace) -> int:
+    outcome = Outcome(arguments.runner, str(arguments.log))
+    text = arguments.log.read_text(encoding="utf-8", errors="replace")
+    lines = ESCAPE_SEQUENCE.sub("", text).rstrip("\n").splitlines()
+    if arguments.junit:
+        read_junit(outcome, arguments.junit)
+    else:
+        read_closing_line(outcome, lines)
+    if arguments.engine:
+        if STANDIN_BEGIN in lines:
+            check_standin_end(outcome, lines)
+        check_engine_log(outcome, lines)
+    if outcome.passed + outcome.failed == 0:
+        outcome.add_problem("no test ran")
+    if arguments.status == 124:
+        outcome.add_problem("the runner took too long and was stopped")
+    elif arguments.status != 0 and outcome.failed == 0:
+        outcome.add_problem(f"the runner ended with status {arguments.status}")
+    for problem in outcome.problems:
+        print(f"  {problem}")
+    print(outcome.summary() + (f" (log: {outcome.log})" if outcome.failed else ""), flush=True)
+    arguments.out.write_text(json.dumps(asdict(outcome), indent=2) + "\n", encoding="utf-8")
+    return 1 if outcome.failed else 0
+
+
+def total(arguments: argparse.Namespace) -> int:
+    outcomes = [json.loads(path.read_text(encoding="utf-8")) for path in arguments.outcomes]
+    sums = {key: sum(outcome[key] for outcome in outcomes) for key in ("passed", "failed", "skipped")}
+    if arguments.json:
+        temporary = arguments.json.with_name(arguments.json.name + ".tmp")
+        temporary.write_text(json.dumps({**sums, "runners": outcomes}, indent=2) + "\n", encoding="utf-8")
+        temporary.replace(arguments.json)
+    print()
+    for outcome in outcomes:
+        print(Outcome(**outcome).summary())
+    print(f"{sums['passed']} passed, {sums['failed']} failed")
+    return 1 if sums["failed"] or not sums["passed"] else 0
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(required=True)
+    judging = commands.add_parser("judge")
+    judging.add_argument("--runner", required=True, help="the runner's name")
+    judging.add_argument("--status", type=int, required=True, help="its exit status")
+    judging.add_argument("--log", type=Path, required=True, help="its output")
+    judging.add_argument("--junit", type=Path, help="its report; without one the log's last line counts")
+    judging.add_argument("--engine", action="store_true", help="the log is the engine's: look for its complaints")
+    judging.add_argument("--out", type=Path, required=True, help="where the outcome goes, as JSON")
+    judging.set_defaults(run=judge)
+    adding = commands.add_parser("total")
+    adding.add_argument("outcomes", type=Path, nargs="+", help="what judge wrote")
+    adding.add_argument("--json", type=Path, help="where the sum goes, as JSON")
+    adding.set_defaults(run=total)
+    arguments = parser.parse_args()
+    return arguments.run(arguments)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,87 @@
+# shellcheck shell=bash
+# The runners of ./dev test, one function each. Each runs its tests with the output on the terminal and in a log
+# below $RESULTS, and has tools/testing/results.py judge them.
+
+RESULTS=$ROOT/build/test
+# Seconds after which a runner is stopped: far more than any needs on two cores with a software renderer.
+RUNNER_LIMIT=${LOBELIGHT_TEST_LIMIT:-3600}
+
+# run_logged NAME COMMAND…: runs COMMAND with its output on the terminal and in NAME.log; sets $status.
+run_logged() {
+  local name=$1
+  shift
+  echo
+  echo "== $name"
+  status=0
+  "$@" 2>&1 | tee "$RESULTS/$name.log" || status=${PIPESTATUS[0]}
+}
+
+# judge NAME [OPTION…]: counts what NAME's run, which ended with $status, has in its log or report.
+judge() {
+  local name=$1
+  shift
+  "$PYTHON" "$ROOT/tools/testing/results.py" judge --runner "$name" --status "$status" \
+    --log "$RESULTS/$name.log" --out "$RESULTS/$name.json" "$@" || true
+  [[ -s $RESULTS/$name.json ]] || die "test: what $name did could not be judged"
+}
+
+# Tests of the C++ core, through CTest.
+run_cpp() {
+  rm -f "$RESULTS/cpp.xml"
+  run_logged cpp ctest --test-dir "$ROOT/build/cmake" --timeout "$RUNNER_LIMIT" --parallel "$JOBS" \
+    --no-tests=error --output-on-failure --output-junit "$RESULTS/cpp.xml"
+  judge cpp --junit "$RESULTS/cpp.xml"
+}
+
+# run_suites NAME FOLDER ENGINE…: the suites of a folder; ENGINE is how the engine is called.
+run_suites() {
+  local name=$1 folder=$2
+  shift 2
+  rm -rf "${RESULTS:?}/$name-report"
+  run_logged "$name" "$@" -s "$GDUNIT_TOOL" --ignoreHeadlessMode -a "res://$folder" -c \
+    -rd "build/test/$name-report"
+  local reports=("$RESULTS/$name-report"/report_*/results.xml)
+  judge "$name" --engine --junit "${reports[0]}"
+}
+
+run_native() {
+  run_suites native tests/native in_time godot_headless
+}
+
+run_runtime() {
+  run_suites runtime tests/runtime in_time godot_headless
+}
+
+# The rendered suites, once in each renderer.
+run_render() {
+  local renderer
+  for renderer in ${LOBELIGHT_RENDERERS:-mobile gl_compatibility forward_plus}; do
+    run_suites "render-$renderer" tests/render in_time godot_rendered "$renderer"
+  done
+}
+
+# What the commands do with wrong arguments and files.
+run_commands() {
+  run_logged commands in_time bash "$ROOT/tests/commands/errors_test.sh"
+  judge commands
+}
+
+run_standin() {
+  run_logged standin in_time bash "$GDUNIT_STANDIN/selftest/run.sh" "$RESULTS/standin-project" "$GODOT"
+  judge standin
+}
+
+run_lint() {
+  run_logged lint in_time bash "$ROOT/tools/commands/lint.sh"
+  judge lint
+}
+
+# in_time COMMAND…: COMMAND, a program or a function of the shell library, stopped after RUNNER_LIMIT seconds.
+in_time() {
+  if [[ $(type -t "$1") == function ]]; then
+    # shellcheck disable=SC2016 # expanded by the inner shell
+    timeout "$RUNNER_LIMIT" bash -c 'source "$0/tools/lib/common.sh"; "$@"' "$ROOT" "$@"
+  else
+    timeout "$RUNNER_LIMIT" "$@"
+  fi
+}
