@@ -69,15 +69,48 @@ need_openexr() {
   fi
 }
 
+# library_key: what the native library is built from. Changes when a source, the recipe or OpenEXR does.
+library_key() {
+  echo "$(fingerprint "$ROOT/gdextension" "$ROOT/addons/lobelight/doc_classes" \
+    "$ROOT/addons/lobelight/lobelight.gdextension" "$ROOT/tools/setup/library.sh") $OPENEXR_DIR"
+}
+
 # need_library: the native library, built in build/cmake and installed where lobelight.gdextension looks for it.
 need_library() {
   need_packages
   need_openexr
-  locked "$ROOT/build/lock" bash "$ROOT/tools/setup/library.sh" "$OPENEXR_DIR"
+  if ! stamp_is "$ROOT/build/library-key" "$(library_key)" || [[ ! -f $ROOT/.godot/extension_list.cfg ]] \
+    || ! compgen -G "$ROOT/addons/lobelight/bin/*" >/dev/null; then
+    locked "$ROOT/build/lock" bash "$ROOT/tools/setup/library.sh" lobelight_library
+  fi
+}
+
+# need_native_tests: need_library, and the C++ tests built in build/cmake, for ctest --test-dir.
+need_native_tests() {
+  need_library
+  if ! stamp_is "$ROOT/build/tests-key" "$(library_key)"; then
+    locked "$ROOT/build/lock" bash "$ROOT/tools/setup/library.sh" all
+  fi
+}
+
+# import_key: what the import depends on: every file that the engine looks at, and the engine itself.
+import_key() {
+  local entries=("$ROOT"/*)
+  local kept=() entry
+  for entry in "${entries[@]}"; do
+    case ${entry##*/} in
+      build | gdextension | docs | tools | reports) ;;
+      *) kept+=("$entry") ;;
+    esac
+  done
+  echo "$(fingerprint "${kept[@]}" "$ROOT/tools/lib/check_scripts.gd") $GODOT"
 }
 
 # need_import: the project's resources imported and every script of it free of errors.
 need_import() {
   need_engine
-  locked "$ROOT/build/lock" bash "$ROOT/tools/setup/import.sh"
+  need_library
+  if ! stamp_is "$ROOT/.godot/lobelight-import-key" "$(import_key)"; then
+    locked "$ROOT/build/lock" bash "$ROOT/tools/setup/import.sh"
+  fi
 }

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Builds static, position-independent OpenEXR and Imath from package sources into DIRECTORY: openexr.sh DIRECTORY
 #
-# Static, because neither the engine nor a user's machine can be expected to have them. Everything in them is hidden
-# (API visibility off), so that they cannot clash with another OpenEXR in the same process.
+# Static, because neither the engine nor a user's machine can be expected to have them. Hidden, so that they cannot
+# clash with another OpenEXR in the same process: "default visibility" drops their headers' export attributes, and
+# CMake's preset then hides everything.
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 source "$ROOT/tools/lib/debian.sh"
 
@@ -65,11 +66,11 @@ build() {
 }
 
 build_imath() {
-  build imath "$imath_archive" -DIMATH_ENABLE_API_VISIBILITY=OFF -DIMATH_INSTALL_PKG_CONFIG=OFF -DPYTHON=OFF
+  build imath "$imath_archive" -DIMATH_USE_DEFAULT_VISIBILITY=ON -DIMATH_INSTALL_PKG_CONFIG=OFF -DPYTHON=OFF
 }
 
 build_openexr() {
-  build openexr "$openexr_archive" -DOPENEXR_ENABLE_API_VISIBILITY=OFF -DOPENEXR_INSTALL_PKG_CONFIG=OFF \
+  build openexr "$openexr_archive" -DOPENEXR_USE_DEFAULT_VISIBILITY=ON -DOPENEXR_INSTALL_PKG_CONFIG=OFF \
     -DOPENEXR_BUILD_TOOLS=OFF -DOPENEXR_INSTALL_TOOLS=OFF -DOPENEXR_BUILD_EXAMPLES=OFF -DOPENEXR_INSTALL_DOCS=OFF \
     -DOPENEXR_BUILD_PYTHON=OFF -DOPENEXR_TEST_LIBRARIES=OFF -DOPENEXR_TEST_TOOLS=OFF -DOPENEXR_TEST_PYTHON=OFF \
     -DOPENEXR_FORCE_INTERNAL_DEFLATE=ON -DOPENEXR_FORCE_INTERNAL_OPENJPH=ON \

@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# check the form of C++, GDScript and shell code: lint [--fix] [--json FILE]
+source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
+
+fix=false
+json=""
+while (($# > 0)); do
+  case $1 in
+    --fix) fix=true ;;
+    --json)
+      (($# >= 2)) || die "lint: --json needs a file"
+      json=$2
+      shift
+      ;;
+    *) die "lint: there is no option '$1'; lint [--fix] [--json FILE]" ;;
+  esac
+  shift
+done
+
+need_packages
+need_python ""
+bin=$(dirname "$PYTHON")
+cd "$ROOT"
+
+# files PATTERN…: our files that match, without what is generated or copied in; PATTERN as for find -name.
+files() {
+  local arguments=() pattern
+  for pattern in "$@"; do
+    arguments+=(-o -name "$pattern")
+  done
+  find . \( -name .git -o -name .godot -o -path ./build -o -path ./reports -o -path ./addons/gdUnit4 \) -prune \
+    -o -type f ! -name gdextension_interface.h \( "${arguments[@]:1}" \) -print | LC_ALL=C sort
+}
+mapfile -t cpp < <(files '*.cpp' '*.h' '*.hpp')
+mapfile -t gdscript < <(files '*.gd')
+mapfile -t shell < <(files '*.sh')
+shell+=(dev .ci/run)
+
+if $fix; then
+  "$bin/clang-format" -i "${cpp[@]}"
+  "$bin/gdformat" --line-length 100 "${gdscript[@]}"
+fi
+
+passed=0
+failed=0
+results=()
+# check NAME COUNT COMMAND…: one test; its output is shown only when it fails. No file to check is a failure too.
+check() {
+  local name=$1 count=$2 output ok=true
+  shift 2
+  if ((count == 0)); then
+    ok=false
+    output="there is no file to check"
+  else
+    output=$("$@" 2>&1) || ok=false
+  fi
+  results+=("$(printf '{"name": "%s", "files": %d, "passed": %s}' "$name" "$count" "$ok")")
+  if $ok; then
+    passed=$((passed + 1))
+    echo "ok      $name ($count files)"
+  else
+    failed=$((failed + 1))
+    printf '%s\n' "$output"
+    echo "FAILED  $name ($count files)"
+  fi
+}
+
+check clang-format "${#cpp[@]}" "$bin/clang-format" --dry-run -Werror "${cpp[@]}"
+check gdformat "${#gdscript[@]}" "$bin/gdformat" --line-length 100 --check "${gdscript[@]}"
+check gdlint "${#gdscript[@]}" "$bin/gdlint" "${gdscript[@]}"
+check shellcheck "${#shell[@]}" shellcheck "${shell[@]}"
+
+if [[ -n $json ]]; then
+  list=$(printf '%s, ' "${results[@]}")
+  printf '{"passed": %d, "failed": %d, "tools": [%s]}\n' "$passed" "$failed" "${list%, }" >"$json.$$" \
+    || die "lint: $json cannot be written"
+  mv -f "$json.$$" "$json"
+fi
+echo "lint: $passed passed, $failed failed"
+((failed == 0))
