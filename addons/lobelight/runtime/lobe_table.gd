@@ -1,0 +1,253 @@
+@tool
+@icon("../icons/lobe_table.svg")
+class_name LobeTable
+extends Resource
+## A BRDF as Gaussian lobes, over the view direction.
+##
+## For each view of a grid the slice BRDF times cosine is a sum of [member lobe_count] spherical
+## Gaussians. [LobeMaterial3D] looks one row of them up and fetches the environment once per lobe.
+## [LobeBaker] makes tables in the editor; see [method from_baked].
+## [br][br]
+## Directions are unit vectors in tangent space: x along the tangent, z along the normal. The grid
+## has [code]views.x[/code] elevations, from the normal to [constant MAX_VIEW_ANGLE], and
+## [code]views.y[/code] azimuths over one quadrant, the others being its mirror images; a table of
+## one azimuth is isotropic.
+
+## The angle between the normal and the last view of the grid, in radians. Beyond it Ward's albedo
+## diverges; views beyond it are taken for it.
+const MAX_VIEW_ANGLE := deg_to_rad(89.4)
+
+## The largest [member lobe_count].
+const MAX_LOBES := 32
+
+## The name of the BRDF that was fitted.
+@export var brdf := "":
+	set(value):
+		brdf = value
+		emit_changed()
+## Widths of the BRDF along the tangent and the bitangent.
+@export var alpha := Vector2(0.1, 0.1):
+	set(value):
+		alpha = value
+		_invalidate()
+## Lobes per view.
+@export var lobe_count := 0:
+	set(value):
+		lobe_count = value
+		_invalidate()
+## Views of the grid: elevations, azimuths.
+@export var views := Vector2i.ZERO:
+	set(value):
+		views = value
+		_invalidate()
+## How the views were fitted: [code]continuation[/code] or [code]independent[/code].
+@export var method := "":
+	set(value):
+		method = value
+		emit_changed()
+## The seed of the fit.
+@warning_ignore("shadowed_global_identifier") @export var seed := 0:
+	set(value):
+		seed = value
+		emit_changed()
+## The lobes, in [constant Image.FORMAT_RGBAH]. Column t holds the views of elevation t, row
+## [code]k * views.y + p[/code] lobe k of azimuth p. A texel is (slope_x / alpha_x,
+## slope_y / alpha_y, log2(kappa (o.h)), weight), the slopes being those of the half-vector h
+## between the view o and the lobe's mean; the weights of a view add up to its albedo.
+@export var image: Image:
+	set(value):
+		image = value
+		_invalidate()
+
+var _texture: ImageTexture
+
+
+## A table from a result of [LobeBaker]; [code]null[/code], and an error, if it is none.
+static func from_baked(result: Dictionary) -> LobeTable:
+	if result.has("error"):
+		push_error("LobeTable.from_baked: the bake failed: %s" % result["error"])
+		return null
+	for key: String in ["brdf", "alpha", "lobes", "views", "width", "height", "data"]:
+		if not result.has(key):
+			push_error('LobeTable.from_baked: the result has no "%s".' % key)
+			return null
+	var table := LobeTable.new()
+	table.brdf = result["brdf"]
+	table.alpha = result["alpha"]
+	table.lobe_count = result["lobes"]
+	table.views = Vector2i(result["views"])
+	table.method = result.get("method", "")
+	table.seed = result.get("seed", 0)
+	var width: int = result["width"]
+	var height: int = result["height"]
+	var data: PackedByteArray = result["data"]
+	if width < 1 or height < 1 or data.size() != width * height * 8:
+		push_error(
+			(
+				"LobeTable.from_baked: %d x %d texels of 8 bytes are not %d bytes."
+				% [width, height, data.size()]
+			)
+		)
+		return null
+	table.image = Image.create_from_data(width, height, false, Image.FORMAT_RGBAH, data)
+	var problem := table.get_problem()
+	if problem:
+		push_error("LobeTable.from_baked: " + problem)
+		return null
+	return table
+
+
+## A table of one lobe of weight 1 about the mirror direction, as wide as the lobe of a mirror that
+## is rough by [param width]: at normal incidence its sharpness is 1 / (2 width²). It stands for
+## the table of a material that has none.
+static func make_single_lobe(width := 0.2) -> LobeTable:
+	var table := LobeTable.new()
+	table.brdf = "single"
+	table.alpha = Vector2(width, width)
+	table.lobe_count = 1
+	table.views = Vector2i(2, 1)
+	var texels := Image.create_empty(2, 1, false, Image.FORMAT_RGBAH)
+	texels.fill(Color(0.0, 0.0, -log(2.0 * width * width) / log(2.0), 1.0))
+	table.image = texels
+	return table
+
+
+## What keeps the table from being used, in a sentence; empty if nothing does.
+func get_problem() -> String:
+	if lobe_count < 1 or lobe_count > MAX_LOBES:
+		return "A table has 1 to %d lobes, this one has %d." % [MAX_LOBES, lobe_count]
+	if views.x < 2 or views.y < 1:
+		return (
+			"A table has at least 2 elevations and 1 azimuth, this one has %d and %d."
+			% [views.x, views.y]
+		)
+	if not (alpha.x > 0.0 and alpha.y > 0.0 and alpha.is_finite()):
+		return "A table's alpha is positive, this one's is %s." % alpha
+	if image == null or image.is_empty():
+		return "The table has no image."
+	var expected := Vector2i(views.x, views.y * lobe_count)
+	if image.get_format() != Image.FORMAT_RGBAH or image.get_size() != expected:
+		return (
+			"A table of %d lobes and %d x %d views has an image of %d x %d texels in RGBAH."
+			% [lobe_count, views.x, views.y, expected.x, expected.y]
+		)
+	return ""
+
+
+## Whether the table is of a BRDF that looks the same from all azimuths.
+func is_isotropic() -> bool:
+	return views.y <= 1
+
+
+## The lobes as the shader's texture; [code]null[/code] while the table is incomplete.
+func get_texture() -> Texture2D:
+	if _texture == null and get_problem().is_empty():
+		_texture = ImageTexture.create_from_image(image)
+	return _texture
+
+
+## (scale, offset) from a view's elevation in radians to the texture's u, then from its azimuth to
+## the v of lobe 0.
+func get_lookup() -> Vector4:
+	var u_scale := (views.x - 1) / (MAX_VIEW_ANGLE * views.x)
+	var height := views.y * lobe_count
+	var v_scale := (views.y - 1) / (0.5 * PI * height)
+	return Vector4(u_scale, 0.5 / views.x, v_scale, 0.5 / height)
+
+
+## The view of the grid at an elevation and an azimuth, counted from 0.
+func get_view(elevation: int, azimuth: int) -> Vector3:
+	var theta := MAX_VIEW_ANGLE * elevation / (views.x - 1)
+	var phi := 0.0 if is_isotropic() else 0.5 * PI * azimuth / (views.y - 1)
+	return Vector3(sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta))
+
+
+## The lobes for a view direction in tangent space, interpolated as the shader does it: an array of
+## [code]{"weight": float, "mean": Vector3, "kappa": float}[/code]. The slice at a direction i is
+## the sum of weight · kappa / (2π (1 − exp(−2 kappa))) · exp(kappa (mean · i − 1)).
+func lobes_at(view: Vector3) -> Array[Dictionary]:
+	var lobes: Array[Dictionary] = []
+	var problem := get_problem()
+	if problem:
+		push_error("LobeTable.lobes_at: " + problem)
+		return lobes
+	var clamped := Vector3(view.x, view.y, maxf(view.z, cos(MAX_VIEW_ANGLE))).normalized()
+	var side := Vector2(clamped.x, clamped.y)
+	var fold := Vector2(-1.0 if side.x < 0.0 else 1.0, -1.0 if side.y < 0.0 else 1.0)
+	var column := atan2(side.length(), clamped.z) / MAX_VIEW_ANGLE * (views.x - 1)
+	var row := atan2(absf(side.y), absf(side.x)) / (0.5 * PI) * (views.y - 1)
+	# An isotropic table has the view in the x-z plane.
+	var turn := Vector2.RIGHT
+	if is_isotropic():
+		fold = Vector2.ONE
+		if side.length() > 1e-5:
+			turn = side.normalized()
+	for k in lobe_count:
+		var texel := _interpolate(k, column, row)
+		var slope := Vector2(texel.r, texel.g) * alpha * fold
+		slope = Vector2(slope.x * turn.x - slope.y * turn.y, slope.x * turn.y + slope.y * turn.x)
+		var half_vector := Vector3(slope.x, slope.y, 1.0).normalized()
+		var cosine := maxf(clamped.dot(half_vector), 1e-4)
+		(
+			lobes
+			. append(
+				{
+					"weight": texel.a,
+					"mean": 2.0 * cosine * half_vector - clamped,
+					"kappa": pow(2.0, texel.b) / cosine,
+				}
+			)
+		)
+	return lobes
+
+
+## The share of light that the surface reflects towards a view: the sum of the lobes' weights.
+func directional_albedo(view: Vector3) -> float:
+	var sum := 0.0
+	for lobe in lobes_at(view):
+		var weight: float = lobe["weight"]
+		sum += weight
+	return sum
+
+
+## The table for JSON: [code]{"brdf", "alpha": [x, y], "lobes", "directions": [{"view": [x, y, z],
+## "lobes": [{"weight", "mean": [x, y, z], "kappa"}]}]}[/code], the directions being the grid's
+## views, elevations running fastest.
+func to_json_dictionary() -> Dictionary:
+	var directions := []
+	for azimuth in views.y:
+		for elevation in views.x:
+			var view := get_view(elevation, azimuth)
+			var lobes := []
+			for lobe in lobes_at(view):
+				var mean: Vector3 = lobe["mean"]
+				(
+					lobes
+					. append(
+						{
+							"weight": lobe["weight"],
+							"mean": [mean.x, mean.y, mean.z],
+							"kappa": lobe["kappa"],
+						}
+					)
+				)
+			directions.append({"view": [view.x, view.y, view.z], "lobes": lobes})
+	return {
+		"brdf": brdf, "alpha": [alpha.x, alpha.y], "lobes": lobe_count, "directions": directions
+	}
+
+
+func _interpolate(lobe: int, column: float, row: float) -> Color:
+	var t0 := clampi(floori(column), 0, views.x - 1)
+	var p0 := clampi(floori(row), 0, views.y - 1)
+	var t1 := mini(t0 + 1, views.x - 1)
+	var p1 := mini(p0 + 1, views.y - 1)
+	var first := lobe * views.y
+	var near := image.get_pixel(t0, first + p0).lerp(image.get_pixel(t1, first + p0), column - t0)
+	var far := image.get_pixel(t0, first + p1).lerp(image.get_pixel(t1, first + p1), column - t0)
+	return near.lerp(far, row - p0)
+
+
+func _invalidate() -> void:
+	_texture = null
+	emit_changed()
