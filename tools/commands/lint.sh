@@ -65,7 +65,16 @@ check() {
   fi
 }
 
-check clang-format "${#cpp[@]}" "$bin/clang-format" --dry-run -Werror "${cpp[@]}"
+# One line for each place; clang-format itself shows the source too.
+clang_format() {
+  local output
+  output=$("$bin/clang-format" --dry-run -Werror "${cpp[@]}" 2>&1) || {
+    sed -n 's/^\([^ ]*:[0-9]*\):[0-9]*: error: /\1: /p' <<<"$output" | LC_ALL=C sort -u
+    return 1
+  }
+}
+
+check clang-format "${#cpp[@]}" clang_format
 check gdformat "${#gdscript[@]}" "$bin/gdformat" --line-length 100 --check "${gdscript[@]}"
 check gdlint "${#gdscript[@]}" "$bin/gdlint" "${gdscript[@]}"
 check shellcheck "${#shell[@]}" shellcheck "${shell[@]}"
@@ -77,4 +86,7 @@ if [[ -n $json ]]; then
   mv -f "$json.$$" "$json"
 fi
 echo "lint: $passed passed, $failed failed"
-((failed == 0))
+if ((failed > 0)); then
+  say "./dev lint --fix formats C++ and GDScript."
+  exit 1
+fi

@@ -1,7 +1,8 @@
 extends SceneTree
-## Loads every script of the project and ends with 1 if one does not compile, with one line for each error.
+## Loads every script of the project and ends with 1 if one does not compile.
 ##
-## Run as [code]godot --headless --path PROJECT --script check_scripts.gd[/code] after an import.
+## Prints one line for each error. Run after an import, as
+## [code]godot --headless --path PROJECT --script check_scripts.gd[/code].
 
 const TEST_SUITE := "GdUnitTestSuite"
 ## Third-party code, or the stand-in for it, that is copied here for the tests.
@@ -52,7 +53,8 @@ func _initialize() -> void:
 	quit(0 if broken.is_empty() and log.lines.is_empty() else 1)
 
 
-## All .gd files below a folder, in order; folders with .gdignore and hidden ones are left out, as the engine does.
+## All .gd files below a folder, in order. Folders with .gdignore and hidden ones are left out, as
+## the engine does.
 func _scripts_below(folder: String) -> PackedStringArray:
 	var found: PackedStringArray = []
 	if folder == FOREIGN or FileAccess.file_exists(folder.path_join(".gdignore")):
