@@ -23,8 +23,9 @@ elseif(GODOT_CPP_SOURCE_DIR)
   if(NOT EXISTS "${GODOT_CPP_SOURCE_DIR}/CMakeLists.txt")
     message(FATAL_ERROR "GODOT_CPP_SOURCE_DIR: there is no CMakeLists.txt in ${GODOT_CPP_SOURCE_DIR}")
   endif()
-  # The engine reloads the library when it has changed: its objects have to survive that.
-  set(GODOTCPP_USE_HOT_RELOAD ON CACHE BOOL "Support hot reload")
+  set(GODOTCPP_SYSTEM_HEADERS ON CACHE BOOL "Expose headers as SYSTEM")  # not held to our warnings
+  set(GODOTCPP_DISABLE_EXCEPTIONS OFF CACHE BOOL "Disable exceptions")  # ours end at src/godot
+  set(GODOTCPP_USE_HOT_RELOAD ON CACHE BOOL "Support hot reload")  # the .gdextension promises it
   set(GODOTCPP_TARGET editor CACHE STRING "Which target to generate")
   set(GODOTCPP_API_VERSION 4.6 CACHE STRING "The Godot API version to target")
   add_subdirectory("${GODOT_CPP_SOURCE_DIR}" godot-cpp EXCLUDE_FROM_ALL)
@@ -37,8 +38,3 @@ else()
 endif()
 
 target_link_libraries(lobelight_godot_cpp INTERFACE ${_godot_cpp_target})
-if(NOT _godot_cpp_target STREQUAL lobelight_binding)
-  # Its headers are not held to this project's warnings.
-  get_target_property(_godot_cpp_includes ${_godot_cpp_target} INTERFACE_INCLUDE_DIRECTORIES)
-  target_include_directories(lobelight_godot_cpp SYSTEM INTERFACE ${_godot_cpp_includes})
-endif()
