@@ -74,7 +74,7 @@ func start(panorama: Texture2D, face_size: int, binomial: bool) -> void:
 		{
 			&"panorama": panorama.get_rid(),
 			&"panorama_is_srgb": format not in _LINEAR_FORMATS,
-			&"size": size,
+			&"face_size": size,
 			&"samples": clampi(ceili(panorama.get_width() / (2.0 * size)), 1, _MAX_SAMPLES),
 		}
 	)
@@ -82,7 +82,7 @@ func start(panorama: Texture2D, face_size: int, binomial: bool) -> void:
 	while level_size > 0:
 		var finer := RenderingServer.viewport_get_texture(_viewports.back())
 		_add_level(
-			level_size, ReduceShader, {&"finer": finer, &"size": level_size, &"binomial": binomial}
+			level_size, ReduceShader, {&"finer": finer, &"face_size": level_size, &"binomial": binomial}
 		)
 		level_size >>= 1
 
