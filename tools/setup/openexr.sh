@@ -36,8 +36,9 @@ has_checksum() {
 
 fetch_openexr() {
   need_python ""
-  # pip asks the archive for its metadata on the way, but builds nothing.
-  "$PYTHON" -m pip download --disable-pip-version-check --no-deps --no-binary OpenEXR --dest "$downloads" \
+  # pip asks the archive for its version on the way. Told so, the archive answers without running CMake, which would
+  # look for Imath in the system and then on the net.
+  OPENEXR_RELEASE_CANDIDATE_TAG=v$OPENEXR_VERSION "$PYTHON" -m pip download --disable-pip-version-check --no-deps --no-binary OpenEXR --dest "$downloads" \
     "OpenEXR==$OPENEXR_VERSION"
   has_checksum "$openexr_archive" "$OPENEXR_SHA256"
 }
