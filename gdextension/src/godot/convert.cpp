@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <godot_cpp/classes/project_settings.hpp>
+#include <stdexcept>
+#include <type_traits>
 
 namespace lobelight {
 
@@ -49,6 +51,7 @@ godot::PackedFloat32Array to_godot(const std::vector<double>& values) {
 }
 
 std::string file_system_path(const godot::String& path) {
+  if (to_std(path).empty()) throw std::invalid_argument("The path is empty.");
   return to_std(godot::ProjectSettings::get_singleton()->globalize_path(path));
 }
 

@@ -21,7 +21,8 @@ godot::PackedFloat32Array to_godot(const std::vector<float>& values);
 // Rounded to single precision.
 godot::PackedFloat32Array to_godot(const std::vector<double>& values);
 
-// The file system's name of a res://, user:// or ordinary path.
+// The file system's name of a res://, user:// or ordinary path. Throws std::invalid_argument for an
+// empty one.
 std::string file_system_path(const godot::String& path);
 
 // {"error": message}: what a method gives back that could not do what it was asked to.
