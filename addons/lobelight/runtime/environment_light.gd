@@ -1,18 +1,12 @@
 extends RefCounted
 ## The light of an environment as the shaders take it: a pyramid, a rotation and a factor.
 
-## Total variance of a level, per axis and in solid angles of its texels, for levels made by 2 × 2
-## means; see shaders/environment.gdshaderinc.
-const BOX_VARIANCE := 1.0 / 4.0
-## The same for levels made by [1 3 3 1] / 8 along each axis.
-const BINOMIAL_VARIANCE := 5.0 / 12.0
-
 ## Half-float cube map with all its mip levels, linear radiance.
 var cubemap: Cubemap
 ## Texels along the side of a face.
 var size := 1
-## One of the two above.
-var level_variance := BINOMIAL_VARIANCE
+## c in shaders/environment.gdshaderinc: how much the levels blur.
+var level_variance := 0.25
 ## From the environment to the world; orthonormal.
 var rotation := Basis.IDENTITY
 var energy := 1.0

@@ -20,8 +20,11 @@ signal rebuild_finished
 enum Filter {
 	## Means of 2 × 2 texels, as graphics hardware makes them.
 	BOX,
-	## [1 3 3 1] / 8 along each axis, across the edges of the cube: smoother, at no cost per frame.
+	## [1 3 3 1] / 8 along each axis, across the edges of the cube.
 	BINOMIAL,
+	## Spherical Gaussians, which unlike the others blur equally along all directions. The least
+	## error, and the same cost per frame; making the pyramid takes longer.
+	GAUSSIAN,
 }
 
 const EnvironmentLight := preload("environment_light.gd")
@@ -47,7 +50,7 @@ static var _arrivals := 0
 		_queue_rebuild()
 		update_configuration_warnings()
 ## How the pyramid's levels are made.
-@export var filter := Filter.BINOMIAL:
+@export var filter := Filter.GAUSSIAN:
 	set(value):
 		filter = value
 		_queue_rebuild()
@@ -156,7 +159,7 @@ func rebuild() -> bool:
 
 	var pyramid := Pyramid.new()
 	var face_size := size if size > 0 else Pyramid.automatic_size(panorama)
-	pyramid.start(panorama, face_size, filter == Filter.BINOMIAL)
+	pyramid.start(panorama, face_size, filter as Pyramid.Filter)
 	await RenderingServer.frame_post_draw
 	while generation != _generation:
 		# A later call is at it; its result is this one's too.
@@ -175,11 +178,7 @@ func rebuild() -> bool:
 	light.cubemap = Cubemap.new()
 	light.cubemap.create_from_images(faces)
 	light.size = pyramid.size
-	light.level_variance = (
-		EnvironmentLight.BINOMIAL_VARIANCE
-		if filter == Filter.BINOMIAL
-		else EnvironmentLight.BOX_VARIANCE
-	)
+	light.level_variance = Pyramid.LEVEL_VARIANCES[filter]
 	_set_light(light)
 	rebuilt.emit()
 	return true

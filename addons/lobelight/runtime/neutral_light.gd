@@ -3,6 +3,7 @@ extends RefCounted
 ## light, a grey horizon and a dark floor.
 
 const EnvironmentLight := preload("environment_light.gd")
+const Pyramid := preload("pyramid.gd")
 
 const SIZE := 16
 const CEILING := Color(0.9, 0.95, 1.0)
@@ -22,7 +23,8 @@ static func make() -> EnvironmentLight:
 		faces.append(_make_face(face))
 	light.cubemap.create_from_images(faces)
 	light.size = SIZE
-	light.level_variance = EnvironmentLight.BOX_VARIANCE
+	# generate_mipmaps takes 2 × 2 means.
+	light.level_variance = Pyramid.LEVEL_VARIANCES[Pyramid.Filter.BOX]
 	return light
 
 

@@ -6,9 +6,16 @@ extends RefCounted
 ## [br]Use: [method start], then [method finish] once [signal RenderingServer.frame_post_draw]
 ## has come. Everything on the rendering server is freed with the object.
 
+## How a level is made from the finer one.
+enum Filter { BOX, BINOMIAL, GAUSSIAN }
+
 const PanoramaShader := preload("shaders/pyramid_panorama.gdshader")
+const GaussianShader := preload("shaders/pyramid_gaussian.gdshader")
 const ReduceShader := preload("shaders/pyramid_reduce.gdshader")
 
+## By filter, the total variance of level l per axis, the sampler included, in solid angles of
+## a texel of that level, for large l: c in shaders/environment.gdshaderinc.
+const LEVEL_VARIANCES: Array[float] = [1.0 / 4.0, 5.0 / 12.0, 2.0 / 3.0]
 ## Texels along the side of a face: the least and the most that can be asked for.
 const MIN_SIZE := 4
 const MAX_SIZE := 2048
@@ -64,7 +71,7 @@ static func automatic_size(panorama: Texture2D) -> int:
 
 ## Puts the work in the rendering server's queue; faces will have [param face_size] texels a side,
 ## a power of two.
-func start(panorama: Texture2D, face_size: int, binomial: bool) -> void:
+func start(panorama: Texture2D, face_size: int, filter: Filter) -> void:
 	size = face_size
 	_panorama = panorama
 	var format := RenderingServer.texture_get_format(panorama.get_rid())
@@ -81,9 +88,16 @@ func start(panorama: Texture2D, face_size: int, binomial: bool) -> void:
 	var level_size := size >> 1
 	while level_size > 0:
 		var finer := RenderingServer.viewport_get_texture(_viewports.back())
-		_add_level(
-			level_size, ReduceShader, {&"finer": finer, &"face_size": level_size, &"binomial": binomial}
-		)
+		var parameters: Dictionary[StringName, Variant] = {
+			&"finer": finer, &"face_size": level_size
+		}
+		if filter == Filter.GAUSSIAN:
+			# Each level adds three quarters of what it is to have, less the sampler's tent.
+			parameters[&"kernel_variance"] = 3.0 * (LEVEL_VARIANCES[filter] - 1.0 / 6.0)
+			_add_level(level_size, GaussianShader, parameters)
+		else:
+			parameters[&"binomial"] = filter == Filter.BINOMIAL
+			_add_level(level_size, ReduceShader, parameters)
 		level_size >>= 1
 
 
@@ -116,7 +130,9 @@ func finish() -> Array[Image]:
 	return faces
 
 
-func _add_level(level_size: int, shader: Shader, parameters: Dictionary) -> void:
+func _add_level(
+	level_size: int, shader: Shader, parameters: Dictionary[StringName, Variant]
+) -> void:
 	var server := RenderingServer
 	var extent := level_size * Vector2i(_COLUMNS, _ROWS)
 	var material := server.material_create()
