@@ -16,6 +16,10 @@ namespace {
 // anything, and results do not depend on how wide these are.
 constexpr std::size_t kBlock = 64;
 constexpr std::size_t kLanes = 4;
+
+// Least exponent that is told from 0 relative to the largest: e^−500 = 7e-218 is far below the last
+// bit of any sum here, and far enough above the subnormal numbers that nothing becomes slow.
+constexpr double kLeastExponent = -500.0;
 using Lanes = std::array<double, kLanes>;
 
 double total(const Lanes& lanes) { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); }
@@ -130,7 +134,11 @@ double Em::expect() {
     for (std::size_t k = 0; k < lobes; ++k) {
       double* out = term[k].data();
       for (std::size_t n = 0; n < kBlock; ++n) {
-        const double e = exp_nonpositive(out[n] - largest[n]);
+        const double t = out[n] - largest[n];
+        out[n] = t < kLeastExponent ? kLeastExponent : t;
+      }
+      for (std::size_t n = 0; n < kBlock; ++n) {
+        const double e = exp_nonpositive(out[n]);
         out[n] = e;
         sum[n] += e;
       }

@@ -17,11 +17,17 @@ constexpr double kMaxGuessKappa = 1e8;
 // this precision must not be chosen by it.
 constexpr double kNegligible = 1e-9;
 
+// Two axes whose variances differ by less than this share of the total count as equally good: the
+// quadrature of a round slice makes neither of them a choice.
+constexpr double kTie = 0.01;
+
 // Unit eigenvector of the largest eigenvalue of a symmetric matrix by Jacobi's rotations (Golub and
-// Van Loan, Matrix Computations, 8.5). Of equal eigenvalues the first axis wins.
+// Van Loan, Matrix Computations, 8.5). Of equally good axes the first wins.
 glm::dvec3 principal_axis(glm::dmat3 a) {
   glm::dmat3 vectors(1.0);
-  const double negligible = kNegligible * (a[0][0] + a[1][1] + a[2][2]);
+  const double trace = a[0][0] + a[1][1] + a[2][2];
+  const double negligible = kNegligible * trace;
+  const double tie = kTie * trace;
   constexpr std::array<std::array<int, 2>, 3> kPlanes{{{0, 1}, {0, 2}, {1, 2}}};
   for (int sweep = 0; sweep < 32; ++sweep) {
     bool done = true;
@@ -42,7 +48,7 @@ glm::dvec3 principal_axis(glm::dmat3 a) {
   }
   int best = 0;
   for (int i = 1; i < 3; ++i) {
-    if (a[i][i] > a[best][best] + negligible) best = i;
+    if (a[i][i] > a[best][best] + tie) best = i;
   }
   const glm::dvec3 axis = vectors[best];
   // An eigenvector's sign is free: its largest component is made positive.

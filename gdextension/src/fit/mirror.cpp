@@ -55,4 +55,21 @@ void symmetrise(Mixture& mixture, const MirrorPairs& pairs) {
   average_with_images(mixture, pairs.y, mirrored_y);
 }
 
+void split_merged_pairs(Mixture& mixture, std::vector<int>& image, const glm::dvec3& normal,
+                        double distance) {
+  for (std::size_t k = 0; k < image.size(); ++k) {
+    const auto other = static_cast<std::size_t>(image[k]);
+    if (other <= k) continue;
+    const SphericalGaussian& gaussian = mixture[k].gaussian;
+    const double height = glm::dot(gaussian.mean, normal);
+    if (!(height * height * gaussian.kappa < distance * distance)) continue;
+    const glm::dvec3 middle = glm::normalize(gaussian.mean - height * normal);
+    const glm::dvec3 step = 0.5 / std::sqrt(gaussian.kappa) * glm::cross(normal, middle);
+    mixture[k].gaussian.mean = glm::normalize(middle + step);
+    mixture[other].gaussian.mean = glm::normalize(middle - step);
+    image[k] = static_cast<int>(k);
+    image[other] = static_cast<int>(other);
+  }
+}
+
 }  // namespace lobelight

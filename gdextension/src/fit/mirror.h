@@ -23,4 +23,11 @@ std::vector<int> match_images(const Mixture& mixture, glm::dvec3 (*mirrored)(con
 // Averages every lobe with its image, so that the mixture is symmetric to the last bit.
 void symmetrise(Mixture& mixture, const MirrorPairs& pairs);
 
+// Pairs whose two lobes lie within `distance` standard deviations of the plane are one lobe, in
+// effect, and cannot part along the plane while they are each other's image. Each lobe of such a
+// pair becomes its own image, on the plane and half a standard deviation to either side of where
+// the two met. `image` is changed with the mixture. `normal` is the plane's: x or y axis.
+void split_merged_pairs(Mixture& mixture, std::vector<int>& image, const glm::dvec3& normal,
+                        double distance);
+
 }  // namespace lobelight

@@ -11,34 +11,31 @@ constexpr double kGoldenRatioFraction = 0.61803398874989484820;
 }  // namespace
 
 Slice sample_slice(const Brdf& brdf, const glm::dvec3& o, int nodes_per_axis, double rotation) {
-  // Rings of equal mass in u.x. Along each ring one quadrant of u.y is stratified, turned by the
-  // golden ratio from ring to ring so that the strata do not line up, and reflected into the other
-  // three: the samplers map u.y → 1 − u.y and u.y → 1/2 − u.y to reflections of the slice.
+  // A Kronecker lattice: u.x in equal steps, u.y turned by the golden ratio from node to node. It
+  // fills one quadrant of u.y and is reflected into the other three, because the samplers map
+  // u.y → 1 − u.y and u.y → 1/2 − u.y to reflections of the slice.
   const int quarter = (nodes_per_axis + 3) / 4;
-  const int rings = 4 * quarter;
-  const double node_weight = 1.0 / (static_cast<double>(rings) * rings);
+  const int count = 4 * quarter * quarter;
+  const double node_weight = 0.25 / count;
 
   Slice slice;
-  slice.directions.reserve(static_cast<std::size_t>(rings) * static_cast<std::size_t>(rings));
+  slice.directions.reserve(4 * static_cast<std::size_t>(count));
   slice.weights.reserve(slice.directions.capacity());
-  const auto add = [&](double ring, double turn) {
-    const auto sample = brdf.sample(o, {ring, turn});
+  const auto add = [&](double distance, double turn) {
+    const auto sample = brdf.sample(o, {distance, turn});
     if (!sample || !(sample->weight > 0.0)) return;
     slice.directions.push_back(sample->direction);
     slice.weights.push_back(sample->weight * node_weight);
     slice.albedo += slice.weights.back();
   };
-  for (int r = 0; r < rings; ++r) {
-    const double ring = (r + 0.5) / rings;
-    const double turned = rotation + r * kGoldenRatioFraction;
-    const double shift = turned - std::floor(turned);
-    for (int a = 0; a < quarter; ++a) {
-      const double turn = 0.25 * (a + shift) / quarter;
-      add(ring, turn);
-      add(ring, 0.5 - turn);
-      add(ring, 0.5 + turn);
-      add(ring, 1.0 - turn);
-    }
+  for (int n = 0; n < count; ++n) {
+    const double distance = (n + 0.5) / count;
+    const double turned = rotation + n * kGoldenRatioFraction;
+    const double turn = 0.25 * (turned - std::floor(turned));
+    add(distance, turn);
+    add(distance, 0.5 - turn);
+    add(distance, 0.5 + turn);
+    add(distance, 1.0 - turn);
   }
   return slice;
 }

@@ -18,6 +18,13 @@ namespace {
 
 constexpr double kGoldenRatioFraction = 0.61803398874989484820;
 
+// Pairs of mirror images this close to their plane, in standard deviations, are let go (two
+// Gaussians less than two standard deviations apart have a single peak). On Ward and GGX, (0.05,
+// 0.2) and (0.05, 0.5), 0.8 brings the mean L1 error of the views in the plane back to that of fits
+// without symmetry; never letting go costs up to 40 % more there, mostly near grazing, where lobes
+// that lay across the plane are needed along it.
+constexpr double kMergedPair = 0.8;
+
 [[noreturn]] void refuse(const std::ostringstream& sentence) {
   throw std::invalid_argument(sentence.str());
 }
@@ -145,6 +152,8 @@ void TableFit::fit_column(int p, const Mixture& pole, const MirrorPairs& pole_mi
   Mixture previous = pole;
   for (int t = 1; t < elevations(); ++t) {
     Mixture start = transport(previous, table_.view(t - 1, p), table_.view(t, p));
+    split_merged_pairs(start, mirror.x, {1.0, 0.0, 0.0}, kMergedPair);
+    split_merged_pairs(start, mirror.y, {0.0, 1.0, 0.0}, kMergedPair);
     previous = fit_view(t, p, std::move(start), mirror);
   }
 }
