@@ -74,7 +74,7 @@ bake_refuses "an unknown option" "--colour" "${good_bake[@]}" --alpha 0.1,0.1 --
 bake_refuses "an option without a value" "--alpha" "${good_bake[@]}" --alpha
 bake_refuses "a missing recipe" "no_recipe.json" --recipe no_recipe.json --out table.res
 
-good_compare=(--brdf ward --alpha 0.1,0.1 --size 16 --out pictures)
+good_compare=(--brdf ward --alpha "0.1,0.1" --size 16 --out pictures)
 echo "This is text, not a picture." >"$work/text.exr"
 echo "This is text, not a picture." >"$work/text.hdr"
 head -c 3000 "$environment" >"$work/cut.exr"

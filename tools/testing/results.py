@@ -72,8 +72,8 @@ def read_junit(outcome: Outcome, path: Path) -> None:
 
 
 def read_closing_line(outcome: Outcome, lines: list[str]) -> None:
-    """Takes the counts from the last line, `NAME: N passed, N failed`."""
-    match = CLOSING_LINE.fullmatch(lines[-1]) if lines else None
+    """Takes the counts from the closing line, `NAME: N passed, N failed`; a hint may follow it."""
+    match = next(filter(None, map(CLOSING_LINE.fullmatch, reversed(lines[-3:]))), None)
     if match is None:
         outcome.add_problem("the runner ended without its closing line")
         return

@@ -1,0 +1,125 @@
+#!/usr/bin/env bash
+# bakes the demo's tables, draws its pictures and measures them; --window opens it ([--env N] [--renderer R] [--out DIR])
+source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
+
+TABLES=$ROOT/build/demo/tables
+RECIPES=(polished_ward satin_ward brushed_ward satin_ggx)
+ENVIRONMENTS=(hall sunset)
+# What is measured: this recipe's BRDF with 8 lobes, on a sphere this many pixels wide.
+MEASURED_RECIPE=brushed_ward
+MEASURED_SIZE=128
+
+usage() {
+  cat <<USAGE
+usage: ./dev demo [--env N] [--renderer R] [--out DIR] [--json FILE]
+       ./dev demo --window [--renderer R]
+
+--env N        only environment N: 1 hall, 2 sunset
+--renderer R   mobile (default), gl_compatibility or forward_plus
+--out DIR      where the pictures go (default: build/demo)
+--json FILE    writes what the closing table shows as JSON
+--window       opens the demo on your display
+USAGE
+}
+
+window=false
+renderer=mobile
+out=$ROOT/build/demo
+json=""
+chosen=""
+while (($# > 0)); do
+  case $1 in
+    -h | --help)
+      usage
+      exit 0
+      ;;
+    --window) window=true ;;
+    --env | --renderer | --out | --json)
+      [[ -n ${2:-} ]] || die "demo: $1 needs a value"
+      case $1 in
+        --env) chosen=$2 ;;
+        --renderer) renderer=$2 ;;
+        --out) out=$(realpath -m -- "$2") ;;
+        --json) json=$(realpath -m -- "$2") ;;
+      esac
+      shift
+      ;;
+    *) die "demo: there is no option '$1'; ./dev demo --help lists them" ;;
+  esac
+  shift
+done
+case $renderer in
+  mobile | gl_compatibility | forward_plus) ;;
+  *) die "demo: there is no renderer '$renderer'; take mobile, gl_compatibility or forward_plus" ;;
+esac
+environments=("${ENVIRONMENTS[@]}")
+if [[ -n $chosen ]]; then
+  [[ $chosen =~ ^[1-9]$ && -n ${ENVIRONMENTS[chosen - 1]:-} ]] \
+    || die "demo: --env takes a number from 1 to ${#ENVIRONMENTS[@]}, not '$chosen'"
+  environments=("${ENVIRONMENTS[chosen - 1]}")
+fi
+[[ -z $json || -d $(dirname -- "$json") ]] || die "demo: $json: its folder does not exist"
+
+# bake_table RECIPE LOBES: bakes a table unless it is there, made from the same recipe by the same library.
+bake_table() {
+  local recipe=$ROOT/bake/recipes/$1.json table=$TABLES/$1_$2.res key
+  key="$(content_hash "$recipe") $(library_key)"
+  if [[ ! -f $table ]] || ! stamp_is "$table.key" "$key"; then
+    bash "$ROOT/tools/commands/bake.sh" --recipe "$recipe" --lobes "$2" --out "$table" >&2
+    write_stamp "$table.key" "$key"
+  fi
+}
+
+# bake_tables LOBES…
+bake_tables() {
+  local recipe lobes
+  mkdir -p "$TABLES"
+  for recipe in "${RECIPES[@]}"; do
+    for lobes in "$@"; do
+      bake_table "$recipe" "$lobes"
+    done
+  done
+}
+
+draw_pictures() {
+  local arguments=(--out "$out" --json "$work/pictures.json")
+  [[ -z $chosen ]] || arguments+=(--env "$chosen")
+  say "Drawing the demo (software renderers need some seconds a picture) …"
+  LOBELIGHT_CWD=$PWD godot_rendered "$renderer" --no-header --script res://demo/render_pictures.gd -- "${arguments[@]}"
+}
+
+# measure ENVIRONMENT: error and GPU time of the measured recipe, as ./dev compare has them.
+measure() {
+  local brdf alpha
+  read -r brdf alpha < <("$PYTHON" "$ROOT/tools/demo/summary.py" recipe "$ROOT/bake/recipes/$MEASURED_RECIPE.json")
+  say "Measuring 8 lobes against the reference in $1 …"
+  bash "$ROOT/tools/commands/compare.sh" --env "$ROOT/demo/environments/$1.exr" --brdf "$brdf" --alpha "$alpha" \
+    --methods gmm8 --size "$MEASURED_SIZE" --renderer "$renderer" --out "$out/compare_$1" \
+    --json "$work/$1.json" >&2
+}
+
+need_engine
+need_python
+need_library
+need_import
+export LOBELIGHT_TERMINAL=0
+if [[ -t 1 ]]; then LOBELIGHT_TERMINAL=1; fi
+
+if $window; then
+  export LOBELIGHT_DISPLAY=real
+  need_display
+  bake_tables 4 8 16
+  godot_rendered "$renderer" res://demo/demo.tscn
+  exit
+fi
+
+mkdir -p "$out" || die "demo: $out: the folder cannot be made"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+bake_tables 8
+draw_pictures
+for environment in "${environments[@]}"; do
+  measure "$environment"
+done
+"$PYTHON" "$ROOT/tools/demo/summary.py" table --pictures "$work/pictures.json" --measured "$work" \
+  --recipe "$ROOT/bake/recipes/$MEASURED_RECIPE.json" --size "$MEASURED_SIZE" ${json:+--json "$json"}
