@@ -20,10 +20,15 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "image/file_io.h"
 #include "image/image_error.h"
+#include "image/primaries.h"
 
 namespace lobelight {
 namespace {
@@ -37,8 +42,9 @@ constexpr std::int64_t kMaxTileTexels = std::int64_t{1} << 26;
 // A window of a few pixels in a huge picture is no panorama, and filling the rest costs memory.
 constexpr std::int64_t kMaxTexelsPerFilledTexel = 64;
 
-// Differences of chromaticities below this are rounding.
-constexpr float kSamePrimaries = 0.005f;
+// Rounded chromaticities of Rec. 709, and those that ICC profiles of sRGB state for D50, give a
+// conversion that differs from the identity by less than this.
+constexpr double kSameColours = 0.005;
 
 constexpr float kLargestHalf = 65504.0f;
 
@@ -141,12 +147,28 @@ std::vector<std::string> choose_channels(const Imf::ChannelList& channels,
   return chosen;
 }
 
-bool same_primaries(const Imf::Chromaticities& a, const Imf::Chromaticities& b) {
-  const auto close = [](const Imath::V2f& p, const Imath::V2f& q) {
-    return std::abs(p.x - q.x) < kSamePrimaries && std::abs(p.y - q.y) < kSamePrimaries;
-  };
-  return close(a.red, b.red) && close(a.green, b.green) && close(a.blue, b.blue) &&
-         close(a.white, b.white);
+// What takes the file's colours to Rec. 709; empty where they are that already.
+std::optional<glm::dmat3> colour_conversion(const Imf::Header& header, const std::string& name) {
+  if (!Imf::hasChromaticities(header)) return std::nullopt;
+  const Imf::Chromaticities& given = Imf::chromaticities(header);
+  const auto xy = [](const Imath::V2f& c) { return glm::dvec2(c.x, c.y); };
+  const auto conversion =
+      conversion_to_rec709({xy(given.red), xy(given.green), xy(given.blue), xy(given.white)});
+  if (!conversion) throw ImageError(name, "has primaries that span no colours");
+  double difference = 0.0;
+  for (int column = 0; column < 3; ++column) {
+    const glm::dvec3 deviation = glm::abs((*conversion)[column] - glm::dmat3(1.0)[column]);
+    difference = std::max({difference, deviation.x, deviation.y, deviation.z});
+  }
+  return difference < kSameColours ? std::nullopt : conversion;
+}
+
+void convert(Panorama& image, const glm::dmat3& conversion) {
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+    float* rgb = &image.rgb[i];
+    const glm::vec3 converted(conversion * glm::dvec3(rgb[0], rgb[1], rgb[2]));
+    for (int c = 0; c < 3; ++c) rgb[c] = converted[c];
+  }
 }
 
 void check_header(const Imf::Header& header, const std::string& name) {
@@ -155,10 +177,6 @@ void check_header(const Imf::Header& header, const std::string& name) {
   }
   if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE) {
     throw ImageError(name, "is a cube map, not a latitude-longitude panorama");
-  }
-  if (Imf::hasChromaticities(header) &&
-      !same_primaries(Imf::chromaticities(header), Imf::Chromaticities())) {
-    throw ImageError(name, "has primaries other than Rec. 709 (sRGB), which is not supported");
   }
   if (header.hasTileDescription()) {
     const Imf::TileDescription& tiles = header.tileDescription();
@@ -278,7 +296,11 @@ Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& n
     check_windows(display, data, name);
     const std::vector<std::string> channels = choose_channels(header.channels(), name);
     Imf::InputPart part(file, 0);
-    return read_pixels(part, display, data, channels);
+    Panorama image = read_pixels(part, display, data, channels);
+    if (channels.size() == 3) {
+      if (const auto conversion = colour_conversion(header, name)) convert(image, *conversion);
+    }
+    return image;
   } catch (const ImageError&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -14,9 +14,9 @@ bool looks_like_exr(const std::vector<std::uint8_t>& bytes);
 // Decodes a scan-line or tiled (level 0) OpenEXR file with half or float channels R, G, B (an A
 // beside them is left aside) or Y, in any compression that the linked library knows. The result
 // has the size of the display window: what the data window leaves free is 0, what it has beyond
-// is cut. Everything else (deep, several parts, integers, luminance/chroma, layers, subsampled
-// channels, primaries other than Rec. 709, cube maps, absurd sizes) throws ImageError, as do
-// damaged files. `name` stands for the file in messages.
+// is cut. Colours with other primaries are converted to Rec. 709. Everything else (deep, several
+// parts, integers, luminance/chroma, layers, subsampled channels, cube maps, absurd sizes) throws
+// ImageError, as do damaged files. `name` stands for the file in messages.
 Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& name);
 
 enum class ExrPixelType { kHalf, kFloat };
