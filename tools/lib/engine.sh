@@ -32,7 +32,7 @@ need_engine() {
   export GODOT LOBELIGHT_ENGINE_READY
 }
 
-# engine_key: what the engine in the cache depends on; its paths are written into it.
+# engine_key: what the engine in the cache depends on; the cache's path is written into it.
 engine_key() {
   echo "$(content_hash "$ROOT/tools/setup/engine.sh" "$ROOT/tools/lib/debian.sh") $CACHE"
 }
@@ -47,13 +47,18 @@ godot_is_wanted() {
   fi
 }
 
-# need_display: what a rendered run needs: an X server of its own, or the user's (LOBELIGHT_DISPLAY=real).
+# need_display: what a rendered run needs: an X server of its own and software drivers, or the user's display and
+# drivers (LOBELIGHT_DISPLAY=real).
 need_display() {
   if [[ ${LOBELIGHT_DISPLAY:-own} == real ]]; then
     [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]] \
       || die "LOBELIGHT_DISPLAY=real asks for your display, but neither DISPLAY nor WAYLAND_DISPLAY is set"
   else
     need_packages
+    need_engine
+    if [[ $GODOT != "$CACHE/engine/godot" && -n $(missing_packages "${DRIVER_PROBES[@]}") ]]; then
+      install_packages "${DRIVER_PROBES[@]}"
+    fi
   fi
 }
 

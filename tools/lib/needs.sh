@@ -2,7 +2,7 @@
 # need_…: each makes sure that something is there. Quick and silent when it is; otherwise the work is done by a
 # script below tools/setup, under a lock, so that two runs at once do it once.
 
-# What is looked for, and the Debian package that brings it.
+# What is looked for, and the Debian package that brings it. A probe is a kind and what it looks for.
 PACKAGE_PROBES=(
   "command cmake cmake"
   "command ninja ninja-build"
@@ -12,38 +12,54 @@ PACKAGE_PROBES=(
   "command shellcheck shellcheck"
   "command xvfb-run xvfb"
   "command xauth xauth"
-  "command flock util-linux"
   "header glm/glm.hpp libglm-dev"
   "header doctest/doctest.h doctest-dev"
-  "python3 ensurepip python3-venv"
+  "file /usr/lib/python3*/ensurepip python3-venv"
   "file /usr/share/keyrings/debian-archive-keyring.gpg debian-archive-keyring"
+  "mirror debian debootstrap"
 )
 
-# missing_packages: prints the packages whose probe finds nothing, one a line.
+# Software drivers, for an engine that is not the unpacked one and so brings none.
+# shellcheck disable=SC2034 # used by need_display
+DRIVER_PROBES=(
+  "file /usr/share/vulkan/icd.d/lvp_icd*.json mesa-vulkan-drivers"
+  "file /usr/lib/*/libGLX_mesa.so* libglx-mesa0"
+  "file /usr/lib/*/libGL.so.1 libgl1"
+  "file /usr/lib/*/dri/swrast_dri.so libgl1-mesa-dri"
+)
+
+# missing_packages PROBE…: prints the packages whose probe finds nothing, one a line.
 missing_packages() {
   local entry kind wanted package
-  for entry in "${PACKAGE_PROBES[@]}"; do
+  for entry in "$@"; do
     read -r kind wanted package <<<"$entry"
     case $kind in
-      command) command -v "$wanted" >/dev/null || echo "$package" ;;
-      header) [[ -f /usr/include/$wanted || -f /usr/local/include/$wanted ]] || echo "$package" ;;
-      file) [[ -f $wanted ]] || echo "$package" ;;
-      python3) compgen -G "/usr/lib/python3*/$wanted" >/dev/null || echo "$package" ;;
-    esac
+      command) command -v "$wanted" >/dev/null ;;
+      header) [[ -f /usr/include/$wanted || -f /usr/local/include/$wanted ]] ;;
+      file) compgen -G "$wanted" >/dev/null ;;
+      # Outside Debian, debootstrap knows where Debian's packages are.
+      mirror)
+        [[ -n ${LOBELIGHT_DEBIAN_MIRROR:-} || -x /usr/sbin/debootstrap ]] \
+          || grep -qsx 'ID=debian' /etc/os-release
+        ;;
+    esac || echo "$package"
   done
 }
 
 # need_packages: the system packages, by apt where they are missing.
 need_packages() {
   [[ -z ${LOBELIGHT_PACKAGES_READY:-} ]] || return 0
-  if [[ -n $(missing_packages) ]]; then
-    bash "$ROOT/tools/setup/packages.sh"
+  if [[ -n $(missing_packages "${PACKAGE_PROBES[@]}") ]]; then
+    install_packages "${PACKAGE_PROBES[@]}"
   fi
   export LOBELIGHT_PACKAGES_READY=1
 }
 
-# need_python [EXTRA]: sets and exports PYTHON, the interpreter of a virtual environment in the cache with
-# tools/requirements.txt, and tools/requirements-EXTRA.txt if EXTRA is given.
+# install_packages PROBE…
+install_packages() {
+  locked "$CACHE/lock/packages" bash "$ROOT/tools/setup/packages.sh" "$@"
+}
+
 # shellcheck disable=SC2120 # commands pass EXTRA, this file does not
 need_python() {
   local extra=${1:-} name=base

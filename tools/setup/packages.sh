@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Installs the system packages that are missing, by apt, with sudo where that is needed.
+# Installs the system packages that are missing, by apt, with sudo where that is needed: packages.sh PROBE…
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
-mapfile -t packages < <(missing_packages)
+mapfile -t packages < <(missing_packages "$@")
 ((${#packages[@]} > 0)) || exit 0
 
 say "Missing system packages: ${packages[*]}"
@@ -18,16 +18,17 @@ if ((EUID != 0)); then
   as_root=(sudo)
 fi
 
-# A package list may be absent (containers) or too old to find the files.
-install_packages() {
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends "${packages[@]}"
+run_install() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install --option DPkg::Lock::Timeout=300 --yes --no-install-recommends "${packages[@]}"
 }
+# The lists may be absent, as in containers, or too old to find the files.
 update_lists() {
-  "${as_root[@]}" apt-get update
+  "${as_root[@]}" apt-get --option DPkg::Lock::Timeout=300 update
 }
 advice="Run apt-get install ${packages[*]} by hand to see what is wrong, then run this again."
 step --advice "$advice" "Updating the list of packages" update_lists
-step --advice "$advice" "Installing ${#packages[@]} system packages" install_packages
+step --advice "$advice" "Installing ${#packages[@]} system packages" run_install
 
-mapfile -t packages < <(missing_packages)
+mapfile -t packages < <(missing_packages "$@")
 ((${#packages[@]} == 0)) || die "still missing after the installation: ${packages[*]}"
