@@ -101,12 +101,14 @@ need_library() {
   fi
 }
 
-# need_native_tests: need_library, and the C++ tests built in build/cmake, for ctest --test-dir.
+# need_native_tests: need_library, and everything else that CMake builds, in build/cmake: the C++ tests for ctest.
 need_native_tests() {
-  need_library
+  need_packages
+  need_openexr
   if ! stamp_is "$ROOT/build/tests-key" "$(library_key)"; then
     locked "$ROOT/build/lock" bash "$ROOT/tools/setup/library.sh" all
   fi
+  need_library
 }
 
 # import_key: what the import depends on: every file that the engine looks at, and the engine itself.
