@@ -44,7 +44,7 @@ done
 
 need_engine
 need_python
-need_native_tests
+need_library
 need_gdunit
 need_import
 

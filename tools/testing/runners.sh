@@ -27,6 +27,7 @@ judge() {
 
 # Tests of the C++ core, through CTest.
 run_cpp() {
+  need_native_tests
   rm -f "$RESULTS/cpp.xml"
   run_logged cpp ctest --test-dir "$ROOT/build/cmake" --timeout "$RUNNER_LIMIT" --parallel "$JOBS" \
     --no-tests=error --output-on-failure --output-junit "$RESULTS/cpp.xml"
