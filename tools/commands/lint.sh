@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# check the form of C++, GDScript and shell code: lint [--fix] [--json FILE]
+# checks the form of C++, GDScript and shell code ([--fix] [--json FILE])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 fix=false

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# get everything the other commands need: packages, engine, libraries, Python tools, the extension
+# gets everything the other commands need: packages, engine, libraries, Python tools, the extension
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 (($# == 0)) || die "setup takes no arguments"
