@@ -45,7 +45,8 @@ double density(const SphericalGaussian& gaussian, const glm::dvec3& direction) {
 double coverage_one_minus_cosine(double kappa, double coverage) {
   // Mass within θ: (1 − e^{−κ(1 − cos θ)}) / (1 − e^{−2κ}); solved for 1 − cos θ.
   if (!(kappa > std::numeric_limits<double>::min())) return 2.0 * coverage;
-  return -std::log1p(coverage * std::expm1(-2.0 * kappa)) / kappa;
+  // Close to full coverage e^{−2κ} drowns in the rounding of 1: the whole sphere is the bound.
+  return std::fmin(2.0, -std::log1p(coverage * std::expm1(-2.0 * kappa)) / kappa);
 }
 
 double coverage_solid_angle(double kappa, double coverage) {
@@ -54,7 +55,7 @@ double coverage_solid_angle(double kappa, double coverage) {
 
 glm::dvec3 sample(const SphericalGaussian& gaussian, const glm::dvec2& u) {
   // The cap with the share u.x of the mass has a boundary that is distributed as the density is.
-  const double t = std::fmin(coverage_one_minus_cosine(gaussian.kappa, u.x), 2.0);
+  const double t = coverage_one_minus_cosine(gaussian.kappa, u.x);
   const double sine = std::sqrt(t * (2.0 - t));
   const double angle = kTwoPi * u.y;
   const Frame frame = frame_around(gaussian.mean);
