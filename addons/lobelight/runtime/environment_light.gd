@@ -5,8 +5,10 @@ extends RefCounted
 var cubemap: Cubemap
 ## Texels along the side of a face.
 var size := 1
-## c in shaders/environment.gdshaderinc: how much the levels blur.
-var level_variance := 0.25
+## How much the levels blur: c in shaders/environment.gdshaderinc.
+var level_variance := 1.0 / 12.0
+## Whether they blur alike in all directions, rather than as the texels of the cube are stretched.
+var is_even := false
 ## From the environment to the world; orthonormal.
 var rotation := Basis.IDENTITY
 var energy := 1.0
@@ -14,7 +16,7 @@ var energy := 1.0
 
 ## Hands the light to a material of the rendering server.
 func apply(material: RID) -> void:
-	var level := Vector2(size * size / (4.0 * level_variance), 1.0 - 1.0 / (6.0 * level_variance))
+	var level := Vector3(0.25 * size * size, level_variance, 1.0 if is_even else 0.0)
 	var server := RenderingServer
 	server.material_set_param(material, &"lobelight_environment", cubemap.get_rid())
 	server.material_set_param(material, &"lobelight_environment_level", level)

@@ -179,6 +179,7 @@ func rebuild() -> bool:
 	light.cubemap.create_from_images(faces)
 	light.size = pyramid.size
 	light.level_variance = Pyramid.LEVEL_VARIANCES[filter]
+	light.is_even = filter == Filter.GAUSSIAN
 	_set_light(light)
 	rebuilt.emit()
 	return true

@@ -13,9 +13,9 @@ const PanoramaShader := preload("shaders/pyramid_panorama.gdshader")
 const GaussianShader := preload("shaders/pyramid_gaussian.gdshader")
 const ReduceShader := preload("shaders/pyramid_reduce.gdshader")
 
-## By filter, the total variance of level l per axis, the sampler included, in solid angles of
-## a texel of that level, for large l: c in shaders/environment.gdshaderinc.
-const LEVEL_VARIANCES: Array[float] = [1.0 / 4.0, 5.0 / 12.0, 2.0 / 3.0]
+## By filter, a third of the variance that a level's kernel has per axis, in solid angles of the
+## finer level's texels: c in shaders/environment.gdshaderinc.
+const LEVEL_VARIANCES: Array[float] = [1.0 / 12.0, 1.0 / 4.0, 1.0 / 2.0]
 ## Texels along the side of a face: the least and the most that can be asked for.
 const MIN_SIZE := 4
 const MAX_SIZE := 2048
@@ -92,8 +92,7 @@ func start(panorama: Texture2D, face_size: int, filter: Filter) -> void:
 			&"finer": finer, &"face_size": level_size
 		}
 		if filter == Filter.GAUSSIAN:
-			# Each level adds three quarters of what it is to have, less the sampler's tent.
-			parameters[&"kernel_variance"] = 3.0 * (LEVEL_VARIANCES[filter] - 1.0 / 6.0)
+			parameters[&"kernel_variance"] = 3.0 * LEVEL_VARIANCES[filter]
 			_add_level(level_size, GaussianShader, parameters)
 		else:
 			parameters[&"binomial"] = filter == Filter.BINOMIAL
