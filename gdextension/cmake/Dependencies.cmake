@@ -10,9 +10,12 @@ find_package(doctest REQUIRED)
 include(doctest)
 
 if(LOBELIGHT_DEPS_DIR)
-  # Imath by name, since OpenEXR's own look-up would go through the system's folders too.
-  find_package(Imath CONFIG REQUIRED PATHS "${LOBELIGHT_DEPS_DIR}" NO_DEFAULT_PATH)
-  find_package(OpenEXR CONFIG REQUIRED PATHS "${LOBELIGHT_DEPS_DIR}" NO_DEFAULT_PATH)
+  # Imath by name, since OpenEXR's own look-up would go through the system's folders too; and always anew, since what
+  # an earlier run found would win over a changed LOBELIGHT_DEPS_DIR.
+  foreach(package Imath OpenEXR)
+    unset(${package}_DIR CACHE)
+    find_package(${package} CONFIG REQUIRED PATHS "${LOBELIGHT_DEPS_DIR}" NO_DEFAULT_PATH)
+  endforeach()
 else()
   find_package(OpenEXR 3.1 CONFIG REQUIRED)
 endif()
