@@ -83,7 +83,7 @@ godot_rendered() {
   if [[ ${LOBELIGHT_DISPLAY:-own} == real ]]; then
     "$GODOT" "${arguments[@]}" "$@"
   else
-    xvfb-run --auto-servernum --server-args "-screen 0 1920x1080x24 -nolisten tcp" \
+    xvfb-run --auto-servernum --server-args "-screen 0 1920x1080x24" \
       "$GODOT" "${arguments[@]}" "$@"
   fi
 }
