@@ -8,8 +8,8 @@
 #include <mutex>
 #include <string>
 
+#include "base/background_work.h"
 #include "base/progress.h"
-#include "godot/background_work.h"
 
 namespace lobelight {
 

@@ -5,7 +5,7 @@
 #include <godot_cpp/core/defs.hpp>
 #include <godot_cpp/godot.hpp>
 
-#include "godot/background_work.h"
+#include "base/background_work.h"
 #include "godot/class_documentation.h"
 #include "godot/lobe_baker.h"
 #include "godot/lobe_image_file.h"

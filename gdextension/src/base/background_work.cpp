@@ -1,4 +1,4 @@
-#include "godot/background_work.h"
+#include "base/background_work.h"
 
 #include <set>
 
