@@ -90,7 +90,7 @@ compare_refuses "an unknown method" "magic8" "${good_compare[@]}" --methods magi
 compare_refuses "a method that comes later" "not available yet" \
   "${good_compare[@]}" --methods gmm4,fis40 --env "$environment"
 compare_refuses "a method without lobes" "gmm0" "${good_compare[@]}" --methods gmm0 --env "$environment"
-compare_refuses "a method with a thousand lobes" "gmm1000" \
+compare_refuses "a method with a thousand lobes" "1000" \
   "${good_compare[@]}" --methods gmm1000 --env "$environment"
 compare_refuses "no method" "methods" "${good_compare[@]}" --env "$environment"
 compare_refuses "alpha of zero" "alpha" \

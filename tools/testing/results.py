@@ -17,9 +17,8 @@ from pathlib import Path
 
 # What the engine says when something is wrong, at the start of a line of its output.
 ENGINE_PROBLEM = re.compile(
-    r"^(?:USER )?(?:SCRIPT |SHADER )?ERROR:|^Parse Error|^WARNING: .*(?:leaked|orphan)|^Leaked instance|^Orphan"
-    r"|^handle_crash",
-    re.IGNORECASE,
+    r"^(?:USER )?(?:SCRIPT |SHADER )?ERROR:|^Parse Error|^WARNING: .*(?:[Ll]eaked|[Oo]rphan)|^Leaked instance"
+    r"|^Orphan|^handle_crash"
 )
 
 # The engine's own noise, with the reason why it says nothing about this project.
@@ -30,6 +29,9 @@ STANDIN_BEGIN = "stand-in: begin"
 STANDIN_END = re.compile(
     r"stand-in: end, (?P<passed>\d+) passed, (?P<failed>\d+) failed, (?P<skipped>\d+) skipped,"
 )
+# gdUnit4's own lines about a test.
+GDUNIT_TEST_BEGIN = re.compile(r"\s*res://\S+ > .* STARTED")
+GDUNIT_TEST_END = re.compile(r"\s*res://\S+ > .* (?:PASSED|FAILED|SKIPPED|WARNING|FLAKY|ERROR)\b")
 ESCAPE_SEQUENCE = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 
 
@@ -79,7 +81,7 @@ def read_closing_line(outcome: Outcome, lines: list[str]) -> None:
         return
     outcome.passed += int(match["passed"])
     outcome.failed += int(match["failed"])
-    outcome.problems += [line.strip() for line in lines if " FAILED" in line]
+    outcome.problems += [line.strip() for line in lines if "FAILED" in line]
 
 
 def check_standin_end(outcome: Outcome, lines: list[str]) -> None:
@@ -95,15 +97,16 @@ def check_standin_end(outcome: Outcome, lines: list[str]) -> None:
 
 
 def check_engine_log(outcome: Outcome, lines: list[str]) -> None:
-    """Counts the engine's complaints as failures.
+    """Counts the engine's complaints outside the tests as failures.
 
-    Between its begin and end lines the stand-in has already charged them to the tests they belong to.
+    Those inside belong to a test, which may have expected them. The stand-in charges the others to their test;
+    gdUnit4 does so with script errors.
     """
     inside_tests = False
     for number, line in enumerate(lines, start=1):
-        if line == STANDIN_BEGIN:
+        if line == STANDIN_BEGIN or GDUNIT_TEST_BEGIN.fullmatch(line):
             inside_tests = True
-        elif STANDIN_END.match(line):
+        elif STANDIN_END.match(line) or GDUNIT_TEST_END.match(line):
             inside_tests = False
         elif not inside_tests and ENGINE_PROBLEM.search(line) and not is_known_noise(line):
             outcome.add_problem(f"{outcome.log}:{number}: {line}")

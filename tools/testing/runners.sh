@@ -40,15 +40,17 @@ run_suites() {
   shift 2
   rm -rf "${RESULTS:?}/$name-report"
   run_logged "$name" "$@" -s "$GDUNIT_TOOL" --ignoreHeadlessMode -a "res://$folder" -c \
-    -rd "build/test/$name-report"
+    -rd "res://build/test/$name-report"
   local reports=("$RESULTS/$name-report"/report_*/results.xml)
   judge "$name" --engine --junit "${reports[0]}"
 }
 
+# The native classes.
 run_native() {
   run_suites native tests/native in_time godot_headless
 }
 
+# The run time as far as it needs no renderer.
 run_runtime() {
   run_suites runtime tests/runtime in_time godot_headless
 }
@@ -67,11 +69,19 @@ run_commands() {
   judge commands
 }
 
+# The judge of the runners.
+run_harness() {
+  run_logged harness in_time "$PYTHON" "$ROOT/tools/testing/results_test.py"
+  judge harness
+}
+
+# The stand-in for gdUnit4.
 run_standin() {
   run_logged standin in_time bash "$GDUNIT_STANDIN/selftest/run.sh" "$RESULTS/standin-project" "$GODOT"
   judge standin
 }
 
+# The form of the sources.
 run_lint() {
   run_logged lint in_time bash "$ROOT/tools/commands/lint.sh"
   judge lint
