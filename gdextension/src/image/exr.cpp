@@ -15,6 +15,9 @@
 #include <ImfStandardAttributes.h>
 #include <ImfTileDescription.h>
 #include <half.h>
+#if __has_include(<ImfContextInit.h>)
+#include <ImfContextInit.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -25,6 +28,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "image/file_io.h"
 #include "image/image_error.h"
@@ -55,20 +59,59 @@ class MemoryReader : public Imf::IStream {
 
   bool read(char* target, int count) override {
     const std::uint64_t wanted = static_cast<std::uint64_t>(std::max(count, 0));
-    if (position_ > bytes_.size() || wanted > bytes_.size() - position_) {
+    const std::uint64_t left = position_ < bytes_.size() ? bytes_.size() - position_ : 0;
+    const std::uint64_t given = std::min(wanted, left);
+    if (given > 0) {
+      std::memcpy(target, bytes_.data() + position_, static_cast<std::size_t>(given));
+    }
+    // OpenEXR 3.3 and later reads ahead in the header and takes what it got before the exception.
+    position_ += given;
+    if (given < wanted) {
+      ran_short_ = true;
       throw std::runtime_error("unexpected end of file");
     }
-    std::memcpy(target, bytes_.data() + position_, static_cast<std::size_t>(wanted));
-    position_ += wanted;
     return position_ < bytes_.size();
   }
   std::uint64_t tellg() override { return position_; }
   void seekg(std::uint64_t position) override { position_ = position; }
 
+  // Whether more was asked for than there is since the last call.
+  bool take_ran_short() { return std::exchange(ran_short_, false); }
+
  private:
   const std::vector<std::uint8_t>& bytes_;
   std::uint64_t position_ = 0;
+  bool ran_short_ = false;
 };
+
+#if __has_include(<ImfContextInit.h>)
+// From OpenEXR 3.3 on, reading goes through the core library, which prints what it finds wrong to
+// stderr unless it is told where to put it. Its first complaint says more than the exception.
+thread_local std::string first_complaint;
+
+void keep_complaint(exr_const_context_t, exr_result_t, const char* message) {
+  if (first_complaint.empty() && message) first_complaint = message;
+}
+
+Imf::MultiPartInputFile open_exr(MemoryReader& stream) {
+  first_complaint.clear();
+  Imf::ContextInitializer context;
+  context.silentHeaderParse(true).strictHeaderValidation(false).setInputStream(&stream);
+  context.setErrorHandler(keep_complaint);
+  // No threads of OpenEXR's own: the caller may be one of many.
+  return Imf::MultiPartInputFile(stream.fileName(), context, 0);
+}
+
+std::string reason_of(const std::exception& error) {
+  return first_complaint.empty() ? error.what() : first_complaint;
+}
+#else
+Imf::MultiPartInputFile open_exr(MemoryReader& stream) {
+  return Imf::MultiPartInputFile(stream, 0);
+}
+
+std::string reason_of(const std::exception& error) { return error.what(); }
+#endif
 
 class MemoryWriter : public Imf::OStream {
  public:
@@ -283,8 +326,7 @@ Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& n
   if (!looks_like_exr(bytes)) throw ImageError(name, "is not an OpenEXR file");
   try {
     MemoryReader stream(bytes, name);
-    // No threads of OpenEXR's own: the caller may be one of many.
-    Imf::MultiPartInputFile file(stream, 0);
+    Imf::MultiPartInputFile file = open_exr(stream);
     if (file.parts() != 1) {
       throw ImageError(name, "has " + std::to_string(file.parts()) +
                                  " parts; only files with one part are supported");
@@ -296,7 +338,10 @@ Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& n
     check_windows(display, data, name);
     const std::vector<std::string> channels = choose_channels(header.channels(), name);
     Imf::InputPart part(file, 0);
+    stream.take_ran_short();  // reading ahead in the header is no fault
     Panorama image = read_pixels(part, display, data, channels);
+    // OpenEXR 3.4 takes uncompressed rows that end early and fills them up.
+    if (stream.take_ran_short()) throw ImageError(name, "ends in the middle of its pixels");
     if (channels.size() == 3) {
       if (const auto conversion = colour_conversion(header, name)) convert(image, *conversion);
     }
@@ -306,7 +351,7 @@ Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& n
   } catch (const std::bad_alloc&) {
     throw ImageError(name, "needs more memory than there is");
   } catch (const std::exception& error) {
-    throw ImageError(name, "is damaged or not supported (" + one_line(error.what()) + ")");
+    throw ImageError(name, "is damaged or not supported (" + one_line(reason_of(error)) + ")");
   }
 }
 
