@@ -43,7 +43,8 @@ GDExtensionObjectPtr ClassDB::create_owner(const char* engine_class) {
   return engine.classdb_construct_object2(StringName(engine_class)._native_ptr());
 }
 
-void ClassDB::set_instance(GDExtensionObjectPtr owner, const char* class_name, Wrapped* instance) {
+void ClassDB::set_instance(GDExtensionObjectPtr owner, const char* class_name,
+                           GDExtensionClassInstancePtr instance) {
   engine.object_set_instance(owner, StringName(class_name)._native_ptr(), instance);
 }
 

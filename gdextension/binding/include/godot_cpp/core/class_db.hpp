@@ -126,7 +126,8 @@ class ClassDB {
 
   static GDExtensionObjectPtr create_owner(const char* engine_class);
   static void set_owner_under_construction(GDExtensionObjectPtr owner);
-  static void set_instance(GDExtensionObjectPtr owner, const char* class_name, Wrapped* instance);
+  static void set_instance(GDExtensionObjectPtr owner, const char* class_name,
+                           GDExtensionClassInstancePtr instance);
   static void notify_postinitialize(GDExtensionObjectPtr owner);
   static void register_class_with(const char* name, const char* parent,
                                   const GDExtensionClassCreationInfo5& info);
