@@ -1,80 +1,147 @@
-// Time, memory and error of table fitting.
-#include <sys/resource.h>
+// Time, memory and error of table fitting:  lobelight_bench [LOBES [ELEVATIONS AZIMUTHS]]
+//
+// For every material and method: seconds, iterations per view, mean log-likelihood, and the L1
+// error of the mixture against ρ(i, o) i_z (mean and worst over views, in per cent of the albedo)
+// at the views of the grid and half-way between them. Independent tables are read at the nearest
+// view, the others by interpolation.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <numeric>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/resource.h>
+#endif
 
 #include "fit/table_fitter.h"
 
-using namespace lobelight;
-
 namespace {
 
-// ∫ |m − f| / ∫ f for a mixture with the slice's mass: 2 ∫ max(0, f − m), which needs nodes only
-// where f is.
-double l1_error(const Brdf& brdf, const glm::dvec3& o, Mixture m, int nodes = 96) {
-  const Slice s = sample_slice(brdf, o, nodes);
-  const double scale = s.albedo / total_weight(m);
-  double sum = 0;
-  for (std::size_t n = 0; n < s.directions.size(); ++n) {
-    const glm::dvec3& i = s.directions[n];
-    const double f = brdf.evaluate(i, o) * i.z;
-    sum += s.weights[n] * std::max(0.0, 1.0 - scale * evaluate(m, i) / f);
+using namespace lobelight;
+
+constexpr double kHalfPi = 1.57079632679489661923;
+
+// ∫ |m − f| / ∫ f for a mixture m scaled to the slice's mass: 2 ∫ max(0, f − m), which needs nodes
+// only where f is.
+double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture) {
+  const Slice slice = sample_slice(brdf, o, 48, 0.5);
+  const double scale = slice.albedo / total_weight(mixture);
+  double sum = 0.0;
+  for (std::size_t n = 0; n < slice.weights.size(); ++n) {
+    const glm::dvec3& i = slice.directions[n];
+    const double value = brdf.evaluate(i, o) * i.z;
+    sum += slice.weights[n] * std::max(0.0, 1.0 - scale * evaluate(mixture, i) / value);
   }
-  return 2 * sum / s.albedo;
+  return 2.0 * sum / slice.albedo;
 }
 
-struct Errors { double mean = 0, worst = 0; };
+struct Errors {
+  double sum = 0.0;
+  double worst = 0.0;
+  int count = 0;
 
-void add(Errors& e, double v, int n) { e.mean += v / n; e.worst = std::max(e.worst, v); }
+  void add(double error) {
+    sum += error;
+    worst = std::max(worst, error);
+    ++count;
+  }
+  double mean_per_cent() const { return 100.0 * sum / count; }
+  double worst_per_cent() const { return 100.0 * worst; }
+};
 
-glm::dvec3 direction(double elevation, double azimuth) {
-  return {std::sin(elevation) * std::cos(azimuth), std::sin(elevation) * std::sin(azimuth), std::cos(elevation)};
+// View (t, p) of the table's grid for real t and p.
+glm::dvec3 view_at(const LobeTable& table, double t, double p) {
+  const double elevation = LobeTable::kMaxElevation * t / (table.views().x - 1);
+  const double azimuth = table.is_isotropic() ? 0.0 : kHalfPi * p / (table.views().y - 1);
+  return {std::sin(elevation) * std::cos(azimuth), std::sin(elevation) * std::sin(azimuth),
+          std::cos(elevation)};
+}
+
+// Peak resident memory of this process so far in MiB, 0 where it cannot be asked for.
+double peak_memory() {
+#if defined(__APPLE__)
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1048576.0;
+#elif defined(__unix__)
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+#else
+  return 0.0;
+#endif
+}
+
+template <typename T>
+double mean(const std::vector<T>& values) {
+  return static_cast<double>(std::accumulate(values.begin(), values.end(), T(0))) /
+         static_cast<double>(values.size());
+}
+
+void measure(const Recipe& recipe, bool keep_symmetry, const char* label) {
+  FitOptions options;
+  options.keep_mirror_symmetry = keep_symmetry;
+  Progress progress;
+  FitReport report;
+  const LobeTable table = fit_table(recipe, progress, &report, options);
+  const auto brdf = make_brdf(recipe.brdf, recipe.alpha);
+
+  Errors at;
+  Errors between;
+  const glm::ivec2 views = table.views();
+  for (int p = 0; p < views.y; ++p) {
+    for (int t = 0; t < views.x; ++t) {
+      at.add(l1_error(*brdf, table.view(t, p), table.mixture_at_view(t, p)));
+      if (t == views.x - 1 || (p == views.y - 1 && p > 0)) continue;
+      const glm::dvec3 o = view_at(table, t + 0.5, p + 0.5);
+      const bool nearest = recipe.method == FitMethod::independent;
+      between.add(l1_error(*brdf, o, table.interpolate(nearest ? view_at(table, t, p) : o)));
+    }
+  }
+  std::printf("%-5s %-12s %2d %3dx%-3d %-14s %7.2f %6.0f %9.5f %7.2f %7.2f %7.2f %7.2f %6.1f\n",
+              recipe.brdf.c_str(),
+              (std::to_string(recipe.alpha.x).substr(0, 4) + "," +
+               std::to_string(recipe.alpha.y).substr(0, 4))
+                  .c_str(),
+              recipe.lobes, views.x, views.y, label, report.seconds, mean(report.iterations),
+              mean(report.log_likelihood), at.mean_per_cent(), at.worst_per_cent(),
+              between.mean_per_cent(), between.worst_per_cent(), peak_memory());
+  std::fflush(stdout);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  struct Case { const char* brdf; glm::dvec2 alpha; };
-  const Case cases[] = {{"ward", {0.01, 0.01}}, {"ward", {0.1, 0.1}}, {"ward", {0.2, 0.2}}, {"ward", {0.05, 0.2}}, {"ward", {0.05, 0.5}}, {"ward", {0.01, 0.2}}, {"ggx", {0.1, 0.1}}, {"ggx", {0.05, 0.2}}};
-  int lobes = argc > 1 ? std::atoi(argv[1]) : 8;
-  int iters = argc > 2 ? std::atoi(argv[2]) : 200;
-  double tol = argc > 3 ? std::atof(argv[3]) : 1e-7;
-  int only = argc > 4 ? std::atoi(argv[4]) : -1;
-  int T = argc > 5 ? std::atoi(argv[5]) : 0, P = argc > 6 ? std::atoi(argv[6]) : 0;
-  for (int c = 0; c < 8; ++c) {
-    if (only >= 0 && c != only) continue;
-    for (int mode = 0; mode < 3; ++mode) {  // independent, continuation, continuation+mirror
-      Recipe r; r.brdf = cases[c].brdf; r.alpha = cases[c].alpha; r.lobes = lobes;
-      r.views = {T, P}; if (r.alpha.x == r.alpha.y) r.views.y = 0;
-      r.method = mode == 0 ? FitMethod::independent : FitMethod::continuation;
-      FitOptions options; options.em.max_iterations = iters; options.em.tolerance = tol; options.keep_mirror_symmetry = mode == 2;
-      Progress progress; FitReport report;
-      const LobeTable table = fit_table(r, progress, &report, options);
-      const auto brdf = make_brdf(r.brdf, r.alpha);
-      Errors on, off; double ll = 0; double it = 0;
-      const int TT = table.views().x, PP = table.views().y;
-      for (int p = 0; p < PP; ++p) for (int t = 0; t < TT; ++t) add(on, l1_error(*brdf, table.view(t, p), table.mixture_at_view(t, p), 48), TT * PP);
-      const int offn = (TT - 1) * std::max(1, PP - 1);
-      for (int p = 0; p < std::max(1, PP - 1); ++p) for (int t = 0; t + 1 < TT; ++t) {
-        const double e = (t + 0.5) / (TT - 1) * LobeTable::kMaxElevation;
-        const double a = PP == 1 ? 0 : (p + 0.5) / (PP - 1) * 1.5707963267948966;
-        const glm::dvec3 o = direction(e, a);
-        Mixture m;
-        if (mode == 0) m = table.interpolate(direction(t * LobeTable::kMaxElevation / (TT - 1), PP == 1 ? 0 : p * 1.5707963267948966 / (PP - 1)));
-        else m = table.interpolate(o);
-        add(off, l1_error(*brdf, o, m, 48), offn);
-      }
-      for (double v : report.log_likelihood) ll += v / (double)report.log_likelihood.size();
-      for (int v : report.iterations) it += v / (double)report.iterations.size();
-      rusage u; getrusage(RUSAGE_SELF, &u);
-      std::printf("%s (%g,%g) K%d %dx%d %-12s %.2fs it %.0f max %d ll %.5f on %.4f/%.4f off %.4f/%.4f rss %ld\n", r.brdf.c_str(), r.alpha.x, r.alpha.y, lobes, TT, PP,
-                  mode == 0 ? "independent" : mode == 1 ? "continuation" : "cont+mirror", report.seconds, it, *std::max_element(report.iterations.begin(), report.iterations.end()), ll, on.mean, on.worst, off.mean, off.worst, u.ru_maxrss / 1024);
-      std::fflush(stdout);
+  struct Material {
+    const char* brdf;
+    glm::dvec2 alpha;
+  };
+  constexpr Material kMaterials[] = {
+      {"ward", {0.01, 0.01}}, {"ward", {0.1, 0.1}},  {"ward", {0.2, 0.2}}, {"ward", {0.05, 0.2}},
+      {"ward", {0.05, 0.5}},  {"ward", {0.01, 0.2}}, {"ggx", {0.1, 0.1}},  {"ggx", {0.05, 0.2}},
+  };
+  std::printf(
+      "brdf  alpha         K views   method         seconds  iter.  log-lik.     at   worst"
+      " between   worst    MiB\n");
+  try {
+    for (const Material& material : kMaterials) {
+      Recipe recipe;
+      recipe.brdf = material.brdf;
+      recipe.alpha = material.alpha;
+      if (argc > 1) recipe.lobes = std::atoi(argv[1]);
+      if (argc > 3) recipe.views = {std::atoi(argv[2]), std::atoi(argv[3])};
+      if (material.alpha.x == material.alpha.y) recipe.views.y = 0;
+      recipe.method = FitMethod::independent;
+      measure(recipe, true, "independent");
+      recipe.method = FitMethod::continuation;
+      measure(recipe, false, "cont. untied");
+      measure(recipe, true, "continuation");
     }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "lobelight_bench: %s\n", error.what());
+    return 1;
   }
+  return 0;
 }

@@ -103,6 +103,8 @@ TEST_CASE("Samples are distributed as pdf() says, refused ones included") {
   const glm::dvec3 views[] = {view(0.0, 0.0), view(50.0, 30.0), view(80.0, 110.0)};
   constexpr glm::dvec2 kTested[] = {{0.3, 0.3}, {0.25, 0.6}};
   testing::SphereTest test;
+  test.samples = 200000;
+  test.subdivisions = 16;
   test.lowest_z = 0.0;
   const double threshold = testing::significance(2 * 3 * static_cast<int>(brdf_names().size()));
   for (const std::string& name : brdf_names()) {

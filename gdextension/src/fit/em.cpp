@@ -63,6 +63,7 @@ class Em {
         statistics_(mixture_.size()),
         responsibility_(mixture_.size() * nodes_.count) {
     clamp_and_normalise();
+    symmetrise(mixture_, options_.mirrors);
   }
 
   const Mixture& mixture() const { return mixture_; }
@@ -78,7 +79,7 @@ class Em {
   void clamp_and_normalise();
   void gather_directions();
   void gather_spreads();
-  void pool_images(const std::vector<int>& image, glm::dvec3 (*mirrored)(const glm::dvec3&));
+  void pool_images();
 
   Nodes nodes_;
   const EmOptions& options_;
@@ -197,25 +198,22 @@ void Em::gather_spreads() {
   }
 }
 
-void Em::pool_images(const std::vector<int>& image, glm::dvec3 (*mirrored)(const glm::dvec3&)) {
-  if (image.empty()) return;
-  const std::vector<Statistics> before = statistics_;
-  for (std::size_t k = 0; k < statistics_.size(); ++k) {
-    const Statistics& other = before[static_cast<std::size_t>(image[k])];
-    Statistics& own = statistics_[k];
-    own.weight = 0.5 * (own.weight + other.weight);
-    own.direction = 0.5 * (own.direction + mirrored(other.direction));
-    own.spread = 0.5 * (own.spread + other.spread);
+void Em::pool_images() {
+  for (const Mirror& mirror : options_.mirrors) {
+    const std::vector<Statistics> before = statistics_;
+    for (std::size_t k = 0; k < statistics_.size(); ++k) {
+      const Statistics& other = before[static_cast<std::size_t>(mirror.image[k])];
+      Statistics& own = statistics_[k];
+      own.weight = 0.5 * (own.weight + other.weight);
+      own.direction = 0.5 * (own.direction + reflected(other.direction, mirror.axis));
+      own.spread = 0.5 * (own.spread + other.spread);
+    }
   }
 }
 
 void Em::maximise() {
-  const auto pool = [this] {
-    pool_images(options_.mirror.x, mirrored_x);
-    pool_images(options_.mirror.y, mirrored_y);
-  };
   gather_directions();
-  pool();
+  pool_images();
   for (std::size_t k = 0; k < mixture_.size(); ++k) {
     // A lobe without mass, or with mass that cancels, keeps its mean.
     const double length = glm::length(statistics_[k].direction);
@@ -224,7 +222,7 @@ void Em::maximise() {
   // A second pass about the new means: 1 − R̄ = Σ γ |x − μ|² / 2 Σ γ, exact for unit vectors, where
   // 1 − |Σ γ x| / Σ γ would cancel.
   gather_spreads();
-  pool();
+  pool_images();
   for (std::size_t k = 0; k < mixture_.size(); ++k) {
     const Statistics& s = statistics_[k];
     mixture_[k].weight = s.weight;

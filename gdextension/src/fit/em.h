@@ -18,8 +18,8 @@ struct EmOptions {
   double weight_floor = 1e-12;
   double kappa_max = 1e8;
   // Lobes that are each other's mirror images and stay so: their statistics are pooled, which is
-  // the maximisation step of a mixture with tied parameters. The start must have the symmetry.
-  MirrorPairs mirror;
+  // the maximisation step of a mixture with tied parameters. The start is made symmetric first.
+  std::vector<Mirror> mirrors;
   // Asked between iterations whether to stop; may be null.
   const Progress* progress = nullptr;
 };

@@ -1,24 +1,27 @@
 #include "fit/mirror.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lobelight {
 
-std::vector<int> match_images(const Mixture& mixture, glm::dvec3 (*mirrored)(const glm::dvec3&)) {
-  const int count = static_cast<int>(mixture.size());
-  std::vector<int> image(mixture.size(), -1);
-  // The best pairs first, so that a lobe on the plane does not take another's partner.
+Mirror match_images(const Mixture& mixture, int axis) {
+  const std::size_t count = mixture.size();
+  constexpr int kNone = -1;
+  Mirror mirror{axis, std::vector<int>(count, kNone)};
+  const auto is_free = [&](std::size_t k) { return mirror.image[k] == kNone; };
   for (;;) {
     double best = std::numeric_limits<double>::infinity();
-    int best_a = -1;
-    int best_b = -1;
-    for (int a = 0; a < count; ++a) {
-      if (image[static_cast<std::size_t>(a)] >= 0) continue;
-      const glm::dvec3 wanted = mirrored(mixture[static_cast<std::size_t>(a)].gaussian.mean);
-      for (int b = a; b < count; ++b) {
-        if (image[static_cast<std::size_t>(b)] >= 0) continue;
-        const glm::dvec3 d = mixture[static_cast<std::size_t>(b)].gaussian.mean - wanted;
+    std::size_t best_a = count;
+    std::size_t best_b = count;
+    for (std::size_t a = 0; a < count; ++a) {
+      if (!is_free(a)) continue;
+      const glm::dvec3 wanted = reflected(mixture[a].gaussian.mean, axis);
+      for (std::size_t b = a; b < count; ++b) {
+        if (!is_free(b)) continue;
+        const glm::dvec3 d = mixture[b].gaussian.mean - wanted;
         const double distance = glm::dot(d, d);
         if (distance < best) {
           best = distance;
@@ -27,49 +30,61 @@ std::vector<int> match_images(const Mixture& mixture, glm::dvec3 (*mirrored)(con
         }
       }
     }
-    if (best_a < 0) return image;
-    image[static_cast<std::size_t>(best_a)] = best_b;
-    image[static_cast<std::size_t>(best_b)] = best_a;
+    if (best_a == count) return mirror;
+    mirror.image[best_a] = static_cast<int>(best_b);
+    mirror.image[best_b] = static_cast<int>(best_a);
   }
 }
 
-namespace {
-
-void average_with_images(Mixture& mixture, const std::vector<int>& image,
-                         glm::dvec3 (*mirrored)(const glm::dvec3&)) {
-  if (image.empty()) return;
-  const Mixture before = mixture;
-  for (std::size_t k = 0; k < mixture.size(); ++k) {
-    const Lobe& other = before[static_cast<std::size_t>(image[k])];
-    Lobe& lobe = mixture[k];
-    lobe.weight = 0.5 * (lobe.weight + other.weight);
-    lobe.gaussian.kappa = 0.5 * (lobe.gaussian.kappa + other.gaussian.kappa);
-    lobe.gaussian.mean = glm::normalize(0.5 * (lobe.gaussian.mean + mirrored(other.gaussian.mean)));
+void symmetrise(Mixture& mixture, const std::vector<Mirror>& mirrors) {
+  for (const Mirror& mirror : mirrors) {
+    const Mixture before = mixture;
+    for (std::size_t k = 0; k < mixture.size(); ++k) {
+      const Lobe& other = before[static_cast<std::size_t>(mirror.image[k])];
+      Lobe& own = mixture[k];
+      own.weight = 0.5 * (own.weight + other.weight);
+      own.gaussian.kappa = 0.5 * (own.gaussian.kappa + other.gaussian.kappa);
+      own.gaussian.mean =
+          glm::normalize(own.gaussian.mean + reflected(other.gaussian.mean, mirror.axis));
+    }
   }
 }
 
-}  // namespace
+MovingMirror::MovingMirror(Mirror mirror)
+    : axis_(mirror.axis), image_(std::move(mirror.image)), merged_(image_.size(), false) {}
 
-void symmetrise(Mixture& mixture, const MirrorPairs& pairs) {
-  average_with_images(mixture, pairs.x, mirrored_x);
-  average_with_images(mixture, pairs.y, mirrored_y);
-}
-
-void split_merged_pairs(Mixture& mixture, std::vector<int>& image, const glm::dvec3& normal,
-                        double distance) {
-  for (std::size_t k = 0; k < image.size(); ++k) {
-    const auto other = static_cast<std::size_t>(image[k]);
+void MovingMirror::advance(Mixture& mixture) {
+  glm::dvec3 normal(0.0);
+  normal[axis_] = 1.0;
+  for (std::size_t k = 0; k < image_.size(); ++k) {
+    const auto other = static_cast<std::size_t>(image_[k]);
     if (other <= k) continue;
-    const SphericalGaussian& gaussian = mixture[k].gaussian;
-    const double height = glm::dot(gaussian.mean, normal);
-    if (!(height * height * gaussian.kappa < distance * distance)) continue;
-    const glm::dvec3 middle = glm::normalize(gaussian.mean - height * normal);
-    const glm::dvec3 step = 0.5 / std::sqrt(gaussian.kappa) * glm::cross(normal, middle);
-    mixture[k].gaussian.mean = glm::normalize(middle + step);
-    mixture[other].gaussian.mean = glm::normalize(middle - step);
-    image[k] = static_cast<int>(k);
-    image[other] = static_cast<int>(other);
+    const SphericalGaussian gaussian = mixture[k].gaussian;
+    if (merged_[k]) {
+      // Half a standard deviation to either side of where they met; a nearly uniform lobe has none.
+      const double width = 1.0 / std::sqrt(std::max(gaussian.kappa, 1.0));
+      const glm::dvec3 step = 0.5 * width * glm::cross(normal, gaussian.mean);
+      mixture[k].gaussian.mean = glm::normalize(gaussian.mean + step);
+      mixture[other].gaussian.mean = glm::normalize(gaussian.mean - step);
+      merged_[k] = merged_[other] = false;
+      image_[k] = static_cast<int>(k);
+      image_[other] = static_cast<int>(other);
+    } else {
+      const double distance = std::sqrt(gaussian.kappa) * std::abs(gaussian.mean[axis_]);
+      merged_[k] = merged_[other] = distance < kMergeDistance;
+    }
   }
+  symmetrise(mixture, mirrors());
+}
+
+std::vector<Mirror> MovingMirror::mirrors() const {
+  // The second mirror puts merged lobes on the plane, where the images that the first one makes of
+  // them are alike; it finds all others as the first one left them.
+  Mirror on_plane{axis_, image_};
+  for (std::size_t k = 0; k < image_.size(); ++k) {
+    if (merged_[k]) on_plane.image[k] = static_cast<int>(k);
+  }
+  return {{axis_, image_}, on_plane};
 }
 
 }  // namespace lobelight

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "base/parallel.h"
 #include "fit/initial_guess.h"
@@ -17,13 +19,6 @@ namespace lobelight {
 namespace {
 
 constexpr double kGoldenRatioFraction = 0.61803398874989484820;
-
-// Pairs of mirror images this close to their plane, in standard deviations, are let go (two
-// Gaussians less than two standard deviations apart have a single peak). On Ward and GGX, (0.05,
-// 0.2) and (0.05, 0.5), 0.8 brings the mean L1 error of the views in the plane back to that of fits
-// without symmetry; never letting go costs up to 40 % more there, mostly near grazing, where lobes
-// that lay across the plane are needed along it.
-constexpr double kMergedPair = 0.8;
 
 [[noreturn]] void refuse(const std::ostringstream& sentence) {
   throw std::invalid_argument(sentence.str());
@@ -65,10 +60,12 @@ class TableFit {
 
   void fit_independently();
   void fit_by_continuation();
-  void fit_column(int p, const Mixture& pole, const MirrorPairs& pole_mirror);
+  void fit_column(int p, const Mixture& pole, const std::vector<Mirror>& pole_mirrors);
 
   // Fits view (t, p) from `start`, or from Töral's guess when it is empty, and stores the lobes.
-  Mixture fit_view(int t, int p, Mixture start, const MirrorPairs& mirror);
+  Mixture fit_view(int t, int p, Mixture start, std::vector<Mirror> mirrors);
+
+  void count_finished_view();
 
   const Recipe& recipe_;
   FitOptions options_;
@@ -81,12 +78,12 @@ class TableFit {
   int finished_ = 0;
 };
 
-Mixture TableFit::fit_view(int t, int p, Mixture start, const MirrorPairs& mirror) {
+Mixture TableFit::fit_view(int t, int p, Mixture start, std::vector<Mirror> mirrors) {
   progress_.throw_if_cancelled();
   const Slice slice = sample_slice(*brdf_, table_.view(t, p), options_.nodes_per_axis, rotation_);
   if (start.empty()) start = initial_guess(slice, recipe_.lobes);
   EmOptions em = options_.em;
-  em.mirror = mirror;
+  em.mirrors = std::move(mirrors);
   EmResult result = run_em(slice, std::move(start), em);
   table_.set_mixture_at_view(t, p, result.mixture);
 
@@ -94,10 +91,14 @@ Mixture TableFit::fit_view(int t, int p, Mixture start, const MirrorPairs& mirro
   report_.iterations[view] = result.iterations;
   if (!result.log_likelihood.empty()) report_.log_likelihood[view] = result.log_likelihood.back();
   if (view == 0) report_.first_view_curve = result.log_likelihood;
+  count_finished_view();
+  return std::move(result.mixture);
+}
+
+void TableFit::count_finished_view() {
   const std::lock_guard<std::mutex> lock(finished_mutex_);
   ++finished_;
   progress_.set(static_cast<double>(finished_) / static_cast<double>(report_.iterations.size()));
-  return std::move(result.mixture);
 }
 
 void TableFit::fit_independently() {
@@ -110,51 +111,57 @@ void TableFit::fit_independently() {
 
 // The neighbour's lobes in half-vector form, read at this view.
 Mixture transport(const Mixture& from, const glm::dvec3& from_view, const glm::dvec3& to_view) {
-  // Means that land below the horizon start just above it.
-  constexpr double kMinHeight = 1e-3;
   Mixture to = from;
   for (Lobe& lobe : to) {
     lobe.gaussian = from_half_vector(to_half_vector(lobe.gaussian, from_view), to_view);
-    lobe.gaussian.mean.z = std::max(lobe.gaussian.mean.z, kMinHeight);
-    lobe.gaussian.mean = glm::normalize(lobe.gaussian.mean);
   }
   return to;
 }
 
-void TableFit::fit_by_continuation() {
-  // Normal incidence: symmetric in both planes, but only those count that the table is mirrored in.
-  const Slice slice = sample_slice(*brdf_, table_.view(0, 0), options_.nodes_per_axis, rotation_);
-  Mixture start = initial_guess(slice, recipe_.lobes);
-  MirrorPairs mirror;
-  if (options_.keep_mirror_symmetry) {
-    mirror.y = match_images(start, mirrored_y);
-    if (azimuths() > 1) mirror.x = match_images(start, mirrored_x);
-    symmetrise(start, mirror);
+// Lobes that start below the horizon, where the slice has no mass, start just above it.
+void lift_above_horizon(Mixture& mixture) {
+  constexpr double kMinHeight = 1e-3;
+  for (Lobe& lobe : mixture) {
+    lobe.gaussian.mean.z = std::max(lobe.gaussian.mean.z, kMinHeight);
+    lobe.gaussian.mean = glm::normalize(lobe.gaussian.mean);
   }
-  const Mixture pole = fit_view(0, 0, std::move(start), mirror);
-
-  parallel_for(static_cast<std::size_t>(azimuths()), recipe_.threads,
-               [&](std::size_t p) { fit_column(static_cast<int>(p), pole, mirror); });
 }
 
-void TableFit::fit_column(int p, const Mixture& pole, const MirrorPairs& pole_mirror) {
-  MirrorPairs mirror;
-  if (p == 0) mirror.y = pole_mirror.y;
-  if (p > 0 && p == azimuths() - 1) mirror.x = pole_mirror.x;
+void TableFit::fit_by_continuation() {
+  // Normal incidence is symmetric in both planes; the planes that count are those that the table is
+  // mirrored in and, for isotropic ones, the plane of incidence.
+  const Slice slice = sample_slice(*brdf_, table_.view(0, 0), options_.nodes_per_axis, rotation_);
+  Mixture start = initial_guess(slice, recipe_.lobes);
+  std::vector<Mirror> mirrors;
+  if (options_.keep_mirror_symmetry) {
+    mirrors.push_back(match_images(start, 1));
+    if (azimuths() > 1) mirrors.push_back(match_images(start, 0));
+  }
+  const Mixture pole = fit_view(0, 0, std::move(start), mirrors);
+
+  parallel_for(static_cast<std::size_t>(azimuths()), recipe_.threads,
+               [&](std::size_t p) { fit_column(static_cast<int>(p), pole, mirrors); });
+}
+
+void TableFit::fit_column(int p, const Mixture& pole, const std::vector<Mirror>& pole_mirrors) {
   if (p > 0) {
     // At the pole all azimuths are one view.
     table_.set_mixture_at_view(0, p, pole);
-    const auto view = static_cast<std::size_t>(p * elevations());
-    report_.log_likelihood[view] = report_.log_likelihood[0];
-    const std::lock_guard<std::mutex> lock(finished_mutex_);
-    ++finished_;
+    report_.log_likelihood[static_cast<std::size_t>(p * elevations())] = report_.log_likelihood[0];
+    count_finished_view();
+  }
+  // The columns at the ends of the quadrant lie in a plane of symmetry: y = 0 and x = 0.
+  std::optional<MovingMirror> mirror;
+  for (const Mirror& candidate : pole_mirrors) {
+    const int column = candidate.axis == 1 ? 0 : azimuths() - 1;
+    if (p == column) mirror.emplace(candidate);
   }
   Mixture previous = pole;
   for (int t = 1; t < elevations(); ++t) {
     Mixture start = transport(previous, table_.view(t - 1, p), table_.view(t, p));
-    split_merged_pairs(start, mirror.x, {1.0, 0.0, 0.0}, kMergedPair);
-    split_merged_pairs(start, mirror.y, {0.0, 1.0, 0.0}, kMergedPair);
-    previous = fit_view(t, p, std::move(start), mirror);
+    if (mirror) mirror->advance(start);
+    lift_above_horizon(start);
+    previous = fit_view(t, p, std::move(start), mirror ? mirror->mirrors() : std::vector<Mirror>());
   }
 }
 

@@ -11,6 +11,7 @@ namespace lobelight {
 
 namespace {
 
+constexpr double kLargestHalf = 65504.0;
 constexpr double kHalfPi = 1.57079632679489661923;
 
 double clamp_log2_kappa(double log2_kappa) {
@@ -117,7 +118,7 @@ std::vector<std::uint16_t> LobeTable::to_rgba16f() const {
   texels.reserve(4 * entries_.size());
   for (const Entry& entry : entries_) {
     for (int channel = 0; channel < 4; ++channel) {
-      texels.push_back(half_from_double(entry[channel]));
+      texels.push_back(half_from_double(std::clamp(entry[channel], -kLargestHalf, kLargestHalf)));
     }
   }
   return texels;
