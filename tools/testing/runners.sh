@@ -55,6 +55,11 @@ run_runtime() {
   run_suites runtime tests/runtime in_time godot_headless
 }
 
+# The demo's shapes and scene.
+run_demo() {
+  run_suites demo tests/demo in_time godot_headless
+}
+
 # The rendered suites, once in each renderer.
 run_render() {
   local renderer
