@@ -5,6 +5,8 @@ extends SubViewport
 ## Put the viewport into the tree, nodes to be drawn below it, then [method capture] pictures or
 ## [method measure_gpu_time]. What is not covered is 0, with alpha 0.
 
+const _MOST_FRAMES_LATE := 12
+
 ## The camera: orthographic from +z, two units high, which shows the unit sphere.
 var camera := Camera3D.new()
 
@@ -54,22 +56,26 @@ func capture() -> Image:
 	return decode(image) if is_compatibility() else image
 
 
-## Milliseconds that the GPU took for each of [param frames] frames, after [param warm_up] others.
-## To be awaited.
-func measure_gpu_time(frames: int, warm_up := 3) -> PackedFloat32Array:
+## Milliseconds that the GPU took for each of [param frames] frames, after [param warm_up] others in
+## which shaders are compiled. Fewer, or none, if the driver gives no times. To be awaited.
+func measure_gpu_time(frames: int, warm_up := 6) -> PackedFloat32Array:
 	var times := PackedFloat32Array()
 	if DisplayServer.get_name() == "headless":
 		return times
 	var viewport := get_viewport_rid()
 	RenderingServer.viewport_set_measure_render_time(viewport, true)
 	render_target_update_mode = SubViewport.UPDATE_ALWAYS
-	for frame in warm_up + frames:
+	# The times come some frames late, and are 0 until then.
+	for frame in _MOST_FRAMES_LATE + warm_up + frames:
 		await RenderingServer.frame_post_draw
-		if frame >= warm_up:
-			times.append(RenderingServer.viewport_get_measured_render_time_gpu(viewport))
+		var time := RenderingServer.viewport_get_measured_render_time_gpu(viewport)
+		if time > 0.0:
+			times.append(time)
+		if times.size() == warm_up + frames:
+			break
 	render_target_update_mode = SubViewport.UPDATE_DISABLED
 	RenderingServer.viewport_set_measure_render_time(viewport, false)
-	return times
+	return times.slice(warm_up)
 
 
 ## The median of a sample; 0 if there is none.
@@ -85,15 +91,16 @@ static func median(values: PackedFloat32Array) -> float:
 	return 0.5 * (sorted[middle - 1] + sorted[middle])
 
 
-## An RGBAF image of sRGB-encoded values as linear ones; alpha is left alone. Unlike
-## [method Image.srgb_to_linear] it takes floats, above 1 too.
+## The linear radiance of an RGBAF image from a frame buffer of Compatibility; alpha is left alone.
+## The engine encodes by max(1.055 · L^(1/2.4) − 0.055, 0), without sRGB's straight part near
+## black, so that what is darker than 0.00084 is lost and comes out as 0.
 static func decode(image: Image) -> Image:
 	var values := image.get_data().to_float32_array()
 	for i in values.size():
 		if i % 4 == 3:
 			continue
 		var value := values[i]
-		values[i] = value / 12.92 if value <= 0.04045 else pow((value + 0.055) / 1.055, 2.4)
+		values[i] = pow((value + 0.055) / 1.055, 2.4) if value > 0.0 else 0.0
 	return Image.create_from_data(
 		image.get_width(), image.get_height(), false, Image.FORMAT_RGBAF, values.to_byte_array()
 	)

@@ -166,39 +166,20 @@ func get_view(elevation: int, azimuth: int) -> Vector3:
 ## [code]{"weight": float, "mean": Vector3, "kappa": float}[/code]. The slice at a direction i is
 ## the sum of weight · kappa / (2π (1 − exp(−2 kappa))) · exp(kappa (mean · i − 1)).
 func lobes_at(view: Vector3) -> Array[Dictionary]:
-	var lobes: Array[Dictionary] = []
 	var problem := get_problem()
 	if problem:
 		push_error("LobeTable.lobes_at: " + problem)
-		return lobes
+		return []
 	var clamped := Vector3(view.x, view.y, maxf(view.z, cos(MAX_VIEW_ANGLE))).normalized()
 	var side := Vector2(clamped.x, clamped.y)
-	var fold := Vector2(-1.0 if side.x < 0.0 else 1.0, -1.0 if side.y < 0.0 else 1.0)
 	var column := atan2(side.length(), clamped.z) / MAX_VIEW_ANGLE * (views.x - 1)
-	var row := atan2(absf(side.y), absf(side.x)) / (0.5 * PI) * (views.y - 1)
-	# An isotropic table has the view in the x-z plane.
-	var turn := Vector2.RIGHT
 	if is_isotropic():
-		fold = Vector2.ONE
-		if side.length() > 1e-5:
-			turn = side.normalized()
-	for k in lobe_count:
-		var texel := _interpolate(k, column, row)
-		var slope := Vector2(texel.r, texel.g) * alpha * fold
-		slope = Vector2(slope.x * turn.x - slope.y * turn.y, slope.x * turn.y + slope.y * turn.x)
-		var half_vector := Vector3(slope.x, slope.y, 1.0).normalized()
-		var cosine := maxf(clamped.dot(half_vector), 1e-4)
-		(
-			lobes
-			. append(
-				{
-					"weight": texel.a,
-					"mean": 2.0 * cosine * half_vector - clamped,
-					"kappa": pow(2.0, texel.b) / cosine,
-				}
-			)
-		)
-	return lobes
+		# The table has the view in the x-z plane.
+		var turn := side.angle() if side.length() > 1e-5 else 0.0
+		return _decode(clamped, column, 0.0, Transform2D(turn, Vector2.ZERO))
+	var row := atan2(absf(side.y), absf(side.x)) / (0.5 * PI) * (views.y - 1)
+	var fold := Vector2(-1.0 if side.x < 0.0 else 1.0, -1.0 if side.y < 0.0 else 1.0)
+	return _decode(clamped, column, row, Transform2D().scaled(fold))
 
 
 ## The share of light that the surface reflects towards a view: the sum of the lobes' weights.
@@ -219,7 +200,7 @@ func to_json_dictionary() -> Dictionary:
 		for elevation in views.x:
 			var view := get_view(elevation, azimuth)
 			var lobes := []
-			for lobe in lobes_at(view):
+			for lobe in _decode(view, elevation, azimuth, Transform2D.IDENTITY):
 				var mean: Vector3 = lobe["mean"]
 				(
 					lobes
@@ -235,6 +216,19 @@ func to_json_dictionary() -> Dictionary:
 	return {
 		"brdf": brdf, "alpha": [alpha.x, alpha.y], "lobes": lobe_count, "directions": directions
 	}
+
+
+# The lobes of a place in the grid; `placement` takes the table's slopes to those about `view`.
+func _decode(view: Vector3, column: float, row: float, placement: Transform2D) -> Array[Dictionary]:
+	var lobes: Array[Dictionary] = []
+	for k in lobe_count:
+		var texel := _interpolate(k, column, row)
+		var slope := placement * (Vector2(texel.r, texel.g) * alpha)
+		var half_vector := Vector3(slope.x, slope.y, 1.0).normalized()
+		var cosine := maxf(view.dot(half_vector), 1e-4)
+		var mean := 2.0 * cosine * half_vector - view
+		lobes.append({"weight": texel.a, "mean": mean, "kappa": pow(2.0, texel.b) / cosine})
+	return lobes
 
 
 func _interpolate(lobe: int, column: float, row: float) -> Color:
