@@ -1,0 +1,151 @@
+extends SceneTree
+## `./dev bake`: fits one BRDF by lobes and saves the table as a resource.
+
+const OPTIONS: PackedStringArray = [
+	"recipe",
+	"brdf",
+	"alpha",
+	"lobes",
+	"views",
+	"method",
+	"seed",
+	"threads",
+	"out",
+	"export",
+	"json",
+]
+
+var _arguments := CommandLine.new("bake", OPTIONS)
+
+
+func _initialize() -> void:
+	# The first frame has to be over before a coroutine may await the next one.
+	_run.call_deferred()
+
+
+func _run() -> void:
+	var recipe := _recipe()
+	var out := _arguments.path("out")
+	if _arguments.error.is_empty():
+		_check_outputs(out)
+	_arguments.fail_if(NativeLibrary.error())
+	if _arguments.error.is_empty():
+		await _bake(recipe, out)
+	if not _arguments.error.is_empty():
+		printerr(_arguments.error_line())
+		quit(1)
+		return
+	quit(0)
+
+
+## The recipe file, if one is named, under the options of the command line.
+func _recipe() -> Dictionary:
+	var recipe := {}
+	if _arguments.has("recipe"):
+		recipe = _read_recipe(_arguments.path("recipe"))
+	for option: String in ["brdf", "method"]:
+		if _arguments.has(option):
+			recipe[option] = _arguments.text(option)
+	for option: String in ["lobes", "seed", "threads"]:
+		if _arguments.has(option):
+			recipe[option] = _arguments.integer(option, 0, -(1 << 31), (1 << 31) - 1)
+	for option: String in ["alpha", "views"]:
+		if _arguments.has(option):
+			recipe[option] = Array(_arguments.numbers(option, 2, PackedFloat64Array([0, 0])))
+	for key: String in ["brdf", "alpha", "lobes"]:
+		if key not in recipe:
+			_arguments.fail("--%s is missing." % key)
+	return recipe
+
+
+func _read_recipe(path: String) -> Dictionary:
+	var json := JSON.new()
+	var file := FileAccess.open(path, FileAccess.READ)
+	if file == null:
+		_arguments.fail(
+			"%s: cannot be read (%s)." % [path, error_string(FileAccess.get_open_error())]
+		)
+	elif json.parse(file.get_as_text()) != OK:
+		_arguments.fail(
+			(
+				"%s: is not JSON (line %d: %s)."
+				% [path, json.get_error_line(), json.get_error_message()]
+			)
+		)
+	elif json.data is not Dictionary:
+		_arguments.fail("%s: a recipe is a JSON object." % path)
+	else:
+		return json.data
+	return {}
+
+
+func _check_outputs(out: String) -> void:
+	_arguments.required("out")
+	if not out.is_empty() and out.get_extension() not in ["res", "tres"]:
+		_arguments.fail("%s: a lobe table is saved as .res or .tres." % out)
+	for option: String in ["out", "export", "json"]:
+		var file := _arguments.path(option)
+		if not file.is_empty() and not DirAccess.dir_exists_absolute(file.get_base_dir()):
+			_arguments.fail("%s: its folder does not exist." % file)
+
+
+func _bake(recipe: Dictionary, out: String) -> void:
+	var result := await NativeLibrary.run(
+		NativeLibrary.create(&"LobeBaker"), recipe, "baking %s" % out.get_file(), self
+	)
+	if result.has("error"):
+		_arguments.fail(result["error"])
+		return
+	var table := LobeTable.from_baked(result)
+	_arguments.fail_if(AtomicFile.save_resource(table, out))
+	if _arguments.has("export"):
+		_arguments.fail_if(
+			AtomicFile.save_json(table.to_json_dictionary(), _arguments.path("export"))
+		)
+	var summary := _summary(result, out)
+	if _arguments.has("json"):
+		_arguments.fail_if(AtomicFile.save_json(summary, _arguments.path("json")))
+	if _arguments.error.is_empty():
+		print(
+			(
+				"%s: %s (%s, %s), %d lobes, %d x %d views, %d bytes, %.2f s, peak memory %.0f MB"
+				% [
+					out,
+					table.brdf,
+					table.alpha.x,
+					table.alpha.y,
+					table.lobe_count,
+					table.views.x,
+					table.views.y,
+					summary["bytes"],
+					summary["seconds"],
+					summary["peak_memory_mb"],
+				]
+			)
+		)
+
+
+func _summary(result: Dictionary, out: String) -> Dictionary:
+	return {
+		"out": out,
+		"brdf": result["brdf"],
+		"alpha": [result["alpha"].x, result["alpha"].y],
+		"lobes": result["lobes"],
+		"views": [result["views"].x, result["views"].y],
+		"method": result["method"],
+		"bytes": (result["data"] as PackedByteArray).size(),
+		"seconds": result["seconds"],
+		"iterations": Array(result["iterations"]),
+		"log_likelihood": Array(result["log_likelihood"]),
+		"peak_memory_mb": _peak_memory_mb(),
+	}
+
+
+## The process's largest resident size, the engine's own 100 MB or so included; 0 where unknown.
+func _peak_memory_mb() -> float:
+	var status := FileAccess.open("/proc/self/status", FileAccess.READ)
+	while status != null and not status.eof_reached():
+		var line := status.get_line()
+		if line.begins_with("VmHWM:"):
+			return line.trim_prefix("VmHWM:").strip_edges().to_int() / 1024.0
+	return 0.0
