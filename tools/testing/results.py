@@ -66,11 +66,17 @@ def read_junit(outcome: Outcome, path: Path) -> None:
         wrong = [child for child in case if child.tag in ("failure", "error")]
         if wrong:
             message = " ".join((wrong[0].get("message") or wrong[0].text or "").split())
-            outcome.add_problem(f"{case.get('classname')} > {case.get('name')}: {message}")
+            outcome.add_problem(f"{case_title(case)}: {message or 'failed'}")
         elif case.find("skipped") is not None or case.get("status") in ("notrun", "disabled"):
             outcome.skipped += 1
         else:
             outcome.passed += 1
+
+
+def case_title(case: ElementTree.Element) -> str:
+    """CTest gives a test's name as its class too."""
+    name, group = case.get("name", ""), case.get("classname", "")
+    return name if group in ("", name) else f"{group} > {name}"
 
 
 def read_closing_line(outcome: Outcome, lines: list[str]) -> None:
