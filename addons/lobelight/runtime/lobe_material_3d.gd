@@ -34,11 +34,11 @@ static var _variants_mutex := Mutex.new()
 		if table == value:
 			return
 		if table != null:
-			table.changed.disconnect(_update)
+			table.changed.disconnect(_queue_update)
 		table = value
 		if table != null:
-			table.changed.connect(_update)
-		_update()
+			table.changed.connect(_queue_update)
+		_queue_update()
 
 @export_group("Albedo")
 ## The share of light reflected at normal incidence. Towards grazing angles it goes to 1 by
@@ -47,23 +47,24 @@ static var _variants_mutex := Mutex.new()
 	set(value):
 		albedo = value
 		_set_colour(&"lobelight_albedo", value)
+		emit_changed()
 ## Multiplied with [member albedo].
 @export var albedo_texture: Texture2D:
 	set(value):
 		albedo_texture = value
-		_update()
+		_queue_update()
 
 @export_group("Normal Map")
 ## A tangent-space normal map. The mesh needs tangents.
 @export var normal_texture: Texture2D:
 	set(value):
 		normal_texture = value
-		_update()
+		_queue_update()
 ## The strength of the normal map.
 @export_range(-16.0, 16.0, 0.01) var normal_scale := 1.0:
 	set(value):
 		normal_scale = value
-		_update()
+		_queue_update()
 
 @export_group("Anisotropy")
 ## The angle from the mesh's tangent, towards its bitangent, to the direction in which the table's
@@ -71,22 +72,23 @@ static var _variants_mutex := Mutex.new()
 @export_range(-180.0, 180.0, 0.1, "radians_as_degrees") var anisotropy_rotation := 0.0:
 	set(value):
 		anisotropy_rotation = value
-		_update()
+		_queue_update()
 
 @export_group("Emission")
 ## Light that the surface sends out by itself.
 @export_color_no_alpha var emission := Color.BLACK:
 	set(value):
 		emission = value
-		_update()
+		_queue_update()
 ## Multiplied with [member emission].
 @export_range(0.0, 16.0, 0.01, "or_greater") var emission_energy := 1.0:
 	set(value):
 		emission_energy = value
-		_update()
+		_queue_update()
 
 # Kept, because the object is no longer whole when it is told of its end.
 var _rid := get_rid()
+var _queued := false
 var _shader: Shader
 # What the material shows while `table` is missing or incomplete.
 var _stand_in: LobeTable
@@ -97,7 +99,7 @@ var _table_texture: Texture2D
 func _init() -> void:
 	LightRegistry.add_material(_rid)
 	_set_colour(&"lobelight_albedo", albedo)
-	_update()
+	_queue_update()
 
 
 func _notification(what: int) -> void:
@@ -151,7 +153,16 @@ func _emits() -> bool:
 	return emission_energy != 0.0 and (emission.r != 0.0 or emission.g != 0.0 or emission.b != 0.0)
 
 
+# Several changed properties, as a file's are, make one shader. It is there before the next frame.
+func _queue_update() -> void:
+	if not _queued:
+		_queued = true
+		_update.call_deferred()
+	emit_changed()
+
+
 func _update() -> void:
+	_queued = false
 	var used := _get_table()
 	var code := get_shader_code()
 	if _shader == null or _shader.code != code:
@@ -171,7 +182,6 @@ func _update() -> void:
 		_set_parameter(&"lobelight_normal_scale", normal_scale)
 	if _emits():
 		_set_colour(&"lobelight_emitted", emission, emission_energy)
-	emit_changed()
 
 
 # Roughness and anisotropy for the engine's own lights. The engine's widths are
@@ -205,6 +215,9 @@ static func _get_variant(code: String) -> Shader:
 	if _variants.has(code):
 		shader = _variants[code].get_ref()
 	if shader == null:
+		for other: String in _variants.keys():
+			if _variants[other].get_ref() == null:
+				_variants.erase(other)
 		shader = Shader.new()
 		shader.code = code
 		_variants[code] = weakref(shader)
