@@ -12,6 +12,7 @@ const LARGEST_SIZE := 2048
 const FILTERS: Dictionary[String, LobeEnvironment3D.Filter] = {
 	"box": LobeEnvironment3D.Filter.BOX,
 	"binomial": LobeEnvironment3D.Filter.BINOMIAL,
+	"gaussian": LobeEnvironment3D.Filter.GAUSSIAN,
 }
 ## Rounds in which every method is drawn once for its GPU time; the median is kept.
 const TIMING_ROUNDS := 15
@@ -52,7 +53,7 @@ func _read_arguments() -> void:
 	_arguments.required("alpha")
 	_methods = _arguments.required("methods").split(",", false)
 	_size = _arguments.integer("size", 256, LEAST_SIZE, LARGEST_SIZE)
-	if _arguments.text("filter", "binomial") not in FILTERS:
+	if _arguments.text("filter", "gaussian") not in FILTERS:
 		_arguments.fail("--filter is %s." % " or ".join(FILTERS.keys()))
 	_arguments.required("out")
 	_out = _arguments.path("out")
@@ -131,7 +132,7 @@ func _draw(
 		return medians
 	var environment := LobeEnvironment3D.new()
 	environment.panorama = _panorama_texture(panorama)
-	environment.filter = FILTERS[_arguments.text("filter", "binomial")]
+	environment.filter = FILTERS[_arguments.text("filter", "gaussian")]
 	root.add_child(environment)
 	if not await environment.rebuild():
 		_arguments.fail(environment.get_rebuild_error())
