@@ -1,3 +1,4 @@
+@tool
 extends RefCounted
 ## The light of an environment as the shaders take it: a pyramid, a rotation and a factor.
 

@@ -1,3 +1,4 @@
+@tool
 extends Object
 ## Brings the environment's light to the materials.
 ##

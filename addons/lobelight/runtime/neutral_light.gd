@@ -1,3 +1,4 @@
+@tool
 extends RefCounted
 ## What materials reflect where no environment has been set up: a bright ceiling with one soft
 ## light, a grey horizon and a dark floor.

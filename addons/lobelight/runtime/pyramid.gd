@@ -1,3 +1,4 @@
+@tool
 extends RefCounted
 ## Makes the pyramid of an environment on the GPU, in any renderer.
 ##
