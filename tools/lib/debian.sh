@@ -40,8 +40,8 @@ private_apt() {
     echo "${line% *} [signed-by=$DEBIAN_KEYRING] $mirror ${line#* } main"
   done >"$directory/sources.list"
   {
-    # Proxies and certificates as the system has them; none of its hooks, pins or sources.
-    apt-config dump | grep -E '^Acquire::' || true
+    # Proxies and certificates as the system has them; none of its hooks, pins, sources or further indexes.
+    apt-config dump | grep -E '^Acquire::' | grep -v '^Acquire::IndexTargets' || true
     cat <<CONFIG
 Dir::State "$directory/state";
 Dir::State::status "$directory/state/status";

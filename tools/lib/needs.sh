@@ -55,11 +55,13 @@ need_packages() {
   export LOBELIGHT_PACKAGES_READY=1
 }
 
-# install_packages PROBE…
+# install_packages PROBE…: by apt, what these probes miss.
 install_packages() {
   locked "$CACHE/lock/packages" bash "$ROOT/tools/setup/packages.sh" "$@"
 }
 
+# need_python [EXTRA]: sets and exports PYTHON, the interpreter of a virtual environment in the cache with
+# tools/requirements.txt, and tools/requirements-EXTRA.txt if EXTRA is given.
 # shellcheck disable=SC2120 # commands pass EXTRA, this file does not
 need_python() {
   local extra=${1:-} name=base

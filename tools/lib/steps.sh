@@ -49,7 +49,8 @@ step() {
 watch_log() {
   local title=$1 log=$2 started=$SECONDS last bar done_count all_count width
   while :; do
-    last=$(tail -c 400 "$log" 2>/dev/null | tr '\r' '\n' | tr -d '\0' | grep -oE '\[[0-9]+/[0-9]+\]|[0-9]+%' | tail -n 1)
+    last=$(tail -c 400 "$log" 2>/dev/null | tr '\r' '\n' | tr -d '\0' | grep -oE '\[[0-9]+/[0-9]+\]|[0-9]+%' \
+      | tail -n 1) || last=""
     bar=""
     if [[ $last =~ ^\[([0-9]+)/([0-9]+)\]$ || $last =~ ^([0-9]+)(%)$ ]]; then
       done_count=${BASH_REMATCH[1]}

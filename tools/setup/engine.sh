@@ -13,10 +13,13 @@ if [[ -x $engine/godot ]] && stamp_is "$engine/key" "$key"; then
   exit 0
 fi
 
-advice="LOBELIGHT_DEBIAN_MIRROR names another Debian mirror; or install Godot $GODOT_WANTED yourself and set GODOT to its path."
+advice="LOBELIGHT_DEBIAN_MIRROR can name another Debian mirror; or install Godot $GODOT_WANTED and set GODOT to its path."
 work=$CACHE/engine.new
 [[ -n $(command -v apt-get) && -n $(command -v dpkg-deb) ]] \
-  || die "no Godot $GODOT_WANTED was found, and without apt-get it cannot be fetched; install Godot $GODOT_WANTED and set GODOT to its path"
+  || die "no Godot $GODOT_WANTED was found and there is no apt-get to fetch it; install it and set GODOT to its path"
+if other=$(command -v godot); then
+  say "$other is version $(godot_version "$other"), not $GODOT_WANTED: Debian's package is used."
+fi
 rm -rf "$work"
 private_apt "$work/apt" "deb forky"
 
@@ -91,6 +94,7 @@ write_wrapper
 rm -rf "$engine"
 mv "$work" "$engine"
 version=$(godot_version "$engine/godot")
-[[ $version == "$GODOT_WANTED".* ]] || die "the unpacked Godot does not run here: $("$engine/godot" --version 2>&1 | tail -n 1). $advice"
+[[ $version == "$GODOT_WANTED".* ]] \
+  || die "the unpacked Godot does not run here: $("$engine/godot" --version 2>&1 | tail -n 1). $advice"
 write_stamp "$engine/key" "$key"
 say "Godot $version is in $engine"

@@ -7,7 +7,7 @@ mapfile -t packages < <(missing_packages "$@")
 
 say "Missing system packages: ${packages[*]}"
 command -v apt-get >/dev/null \
-  || die "there is no apt-get here; install what Debian calls ${packages[*]} with your system's package manager, then run this again"
+  || die "there is no apt-get here; install what Debian calls ${packages[*]}, then run this again"
 
 as_root=()
 if ((EUID != 0)); then
@@ -18,17 +18,19 @@ if ((EUID != 0)); then
   as_root=(sudo)
 fi
 
-run_install() {
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install --option DPkg::Lock::Timeout=300 --yes --no-install-recommends "${packages[@]}"
+apt_get() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get --option DPkg::Lock::Timeout=300 "$@"
 }
-# The lists may be absent, as in containers, or too old to find the files.
-update_lists() {
-  "${as_root[@]}" apt-get --option DPkg::Lock::Timeout=300 update
+# The lists of packages may be absent, as in containers, or too old to find the files. Reading them anew is left for
+# that case, because it also fails for reasons that do not matter here, such as another source that is gone.
+install_missing() {
+  local install=(install --yes --no-install-recommends "${packages[@]}")
+  apt_get "${install[@]}" && return
+  apt_get update || true
+  apt_get "${install[@]}"
 }
-advice="Run apt-get install ${packages[*]} by hand to see what is wrong, then run this again."
-step --advice "$advice" "Updating the list of packages" update_lists
-step --advice "$advice" "Installing ${#packages[@]} system packages" run_install
+step --advice "Run apt-get install ${packages[*]} by hand to see what is wrong, then run this again." \
+  "Installing ${#packages[@]} system packages" install_missing
 
 mapfile -t packages < <(missing_packages "$@")
 ((${#packages[@]} == 0)) || die "still missing after the installation: ${packages[*]}"
