@@ -6,7 +6,7 @@ DEBIAN_KEYRING=/usr/share/keyrings/debian-archive-keyring.gpg
 # debian_mirror: prints the address of a Debian mirror: LOBELIGHT_DEBIAN_MIRROR, else the one this machine's own apt
 # uses if it is Debian's, else the one debootstrap has built in. Prints nothing when there is none of these.
 debian_mirror() {
-  local id="" codename="" mirror=""
+  local id="" codename="" fields mirror=""
   if [[ -n ${LOBELIGHT_DEBIAN_MIRROR:-} ]]; then
     printf '%s\n' "${LOBELIGHT_DEBIAN_MIRROR%/}"
     return
@@ -15,8 +15,9 @@ debian_mirror() {
   [[ ! -r /etc/os-release ]] || read -r id codename < <(source /etc/os-release && echo "$ID ${VERSION_CODENAME:-sid}")
   # The origin is known only once the lists have been fetched; until then the suite's name has to tell.
   # shellcheck disable=SC2016 # apt's own placeholders
-  mirror=$(apt-get indextargets --format '$(REPO_URI)|$(RELEASE)|$(COMPONENT)|$(ORIGIN)|$(LABEL)' 'Created-By: Packages' \
-    2>/dev/null | awk -F'|' -v id="$id" -v codename="$codename" '
+  fields='$(REPO_URI)|$(RELEASE)|$(COMPONENT)|$(ORIGIN)|$(LABEL)'
+  mirror=$(apt-get indextargets --format "$fields" 'Created-By: Packages' 2>/dev/null \
+    | awk -F'|' -v id="$id" -v codename="$codename" '
       $3 == "main" && (($4 == "Debian" && $5 == "Debian") || ($4 == "" && id == "debian" && $2 == codename)) {
         sub(/\/$/, "", $1); print $1; exit
       }') || true

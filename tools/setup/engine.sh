@@ -13,7 +13,7 @@ if [[ -x $engine/godot ]] && stamp_is "$engine/key" "$key"; then
   exit 0
 fi
 
-advice="LOBELIGHT_DEBIAN_MIRROR can name another Debian mirror; or install Godot $GODOT_WANTED and set GODOT to its path."
+advice="LOBELIGHT_DEBIAN_MIRROR can name another mirror; or install Godot $GODOT_WANTED and set GODOT to its path."
 work=$CACHE/engine.new
 [[ -n $(command -v apt-get) && -n $(command -v dpkg-deb) ]] \
   || die "no Godot $GODOT_WANTED was found and there is no apt-get to fetch it; install it and set GODOT to its path"

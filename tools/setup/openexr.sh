@@ -38,8 +38,8 @@ fetch_openexr() {
   need_python ""
   # pip asks the archive for its version on the way. Told so, the archive answers without running CMake, which would
   # look for Imath in the system and then on the net.
-  OPENEXR_RELEASE_CANDIDATE_TAG=v$OPENEXR_VERSION "$PYTHON" -m pip download --disable-pip-version-check --no-deps --no-binary OpenEXR --dest "$downloads" \
-    "OpenEXR==$OPENEXR_VERSION"
+  OPENEXR_RELEASE_CANDIDATE_TAG=v$OPENEXR_VERSION "$PYTHON" -m pip download --disable-pip-version-check --no-deps \
+    --no-binary OpenEXR --dest "$downloads" "OpenEXR==$OPENEXR_VERSION"
   has_checksum "$openexr_archive" "$OPENEXR_SHA256"
 }
 
@@ -83,7 +83,8 @@ has_checksum "$openexr_archive" "$OPENEXR_SHA256" \
   || step --advice "$offline $OPENEXR_SHA256, at $openexr_archive." "Fetching the source of OpenEXR $OPENEXR_VERSION" \
     fetch_openexr
 has_checksum "$imath_archive" "$IMATH_SHA256" \
-  || step --advice "$offline $IMATH_SHA256, at $imath_archive." "Fetching the source of Imath $IMATH_VERSION" fetch_imath
+  || step --advice "$offline $IMATH_SHA256, at $imath_archive." "Fetching the source of Imath $IMATH_VERSION" \
+    fetch_imath
 step "Building Imath $IMATH_VERSION" build_imath
 step "Building OpenEXR $OPENEXR_VERSION" build_openexr
 
