@@ -1,14 +1,15 @@
 // Time, memory and error of table fitting:  lobelight_bench [LOBES [ELEVATIONS AZIMUTHS]]
 //
-// For every material and method: seconds, iterations per view, mean log-likelihood, and the L1
-// error of the mixture against ρ(i, o) i_z (mean and worst over views, in per cent of the albedo)
-// at the views of the grid and half-way between them. Independent tables are read at the nearest
-// view, the others by interpolation.
+// For every material and method: seconds on the clock and of processor time, iterations per view,
+// mean log-likelihood, and the L1 error of the mixture against ρ(i, o) i_z (mean and worst over
+// views, in per cent of the albedo) at the views of the grid and half-way between them. Independent
+// tables are read at the nearest view, the others by interpolation.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <numeric>
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -85,7 +86,9 @@ void measure(const Recipe& recipe, bool keep_symmetry, const char* label) {
   options.keep_mirror_symmetry = keep_symmetry;
   Progress progress;
   FitReport report;
+  const std::clock_t before = std::clock();
   const LobeTable table = fit_table(recipe, progress, &report, options);
+  const double processor = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   const auto brdf = make_brdf(recipe.brdf, recipe.alpha);
 
   Errors at;
@@ -100,14 +103,15 @@ void measure(const Recipe& recipe, bool keep_symmetry, const char* label) {
       between.add(l1_error(*brdf, o, table.interpolate(nearest ? view_at(table, t, p) : o)));
     }
   }
-  std::printf("%-5s %-12s %2d %3dx%-3d %-14s %7.2f %6.0f %9.5f %7.2f %7.2f %7.2f %7.2f %6.1f\n",
-              recipe.brdf.c_str(),
-              (std::to_string(recipe.alpha.x).substr(0, 4) + "," +
-               std::to_string(recipe.alpha.y).substr(0, 4))
-                  .c_str(),
-              recipe.lobes, views.x, views.y, label, report.seconds, mean(report.iterations),
-              mean(report.log_likelihood), at.mean_per_cent(), at.worst_per_cent(),
-              between.mean_per_cent(), between.worst_per_cent(), peak_memory());
+  std::printf(
+      "%-5s %-12s %2d %3dx%-3d %-14s %7.2f %7.2f %6.0f %9.5f %7.2f %7.2f %7.2f %7.2f %6.1f\n",
+      recipe.brdf.c_str(),
+      (std::to_string(recipe.alpha.x).substr(0, 4) + "," +
+       std::to_string(recipe.alpha.y).substr(0, 4))
+          .c_str(),
+      recipe.lobes, views.x, views.y, label, report.seconds, processor, mean(report.iterations),
+      mean(report.log_likelihood), at.mean_per_cent(), at.worst_per_cent(), between.mean_per_cent(),
+      between.worst_per_cent(), peak_memory());
   std::fflush(stdout);
 }
 
@@ -123,7 +127,8 @@ int main(int argc, char** argv) {
       {"ward", {0.05, 0.5}},  {"ward", {0.01, 0.2}}, {"ggx", {0.1, 0.1}},  {"ggx", {0.05, 0.2}},
   };
   std::printf(
-      "brdf  alpha         K views   method         seconds  iter.  log-lik.     at   worst"
+      "brdf  alpha         K views   method         seconds  proc. s  iter.  log-lik.     at   "
+      "worst"
       " between   worst    MiB\n");
   try {
     for (const Material& material : kMaterials) {
