@@ -58,6 +58,7 @@ APT::Sandbox::User "root";
 APT::Install-Recommends "false";
 Acquire::Languages "none";
 Acquire::Check-Valid-Until "false";
+APT::Update::Error-Mode "any";
 CONFIG
   } >"$directory/apt.conf"
   export APT_CONFIG=$directory/apt.conf
