@@ -70,6 +70,8 @@ run_render() {
 
 # What the commands do with wrong arguments and files.
 run_commands() {
+  # Anything set up only now would count as noise of the first command.
+  need_import
   run_logged commands in_time bash "$ROOT/tests/commands/errors_test.sh"
   judge commands
 }
