@@ -3,6 +3,7 @@ extends GdUnitTestSuite
 
 const Kit := preload("support/render_kit.gd")
 const SIDE := 32
+const MIDDLE := 16
 const MARKERS: Dictionary[Vector3, Color] = {
 	Vector3.RIGHT: Color.RED,
 	Vector3.LEFT: Color.GREEN,
@@ -109,8 +110,7 @@ func _look(from: Vector3, towards: Vector3, sky: bool) -> Color:
 		surroundings.background_mode = Environment.BG_COLOR
 		_view.camera.set_orthogonal(2.0, 0.1, 10.0)
 	var image: Image = await _view.capture()
-	@warning_ignore("integer_division")
-	return image.get_pixel(SIDE / 2, SIDE / 2)
+	return image.get_pixel(MIDDLE, MIDDLE)
 
 
 func _assert_colour(got: Color, expected: Color, what: String) -> void:

@@ -36,8 +36,9 @@ const _GROUP := &"_lobelight_environments"
 # Counts the environments that have come, so that the first of a world can be told.
 static var _arrivals := 0
 
-## The surroundings, in the same projection as [PanoramaSkyMaterial]: −z in the middle, the left and
-## right edges behind. Linear light up to 65504; negative values and NaN count as dark.
+## The surroundings, in the same projection as [PanoramaSkyMaterial]: +z in the middle, −z at the
+## left and right edges. Linear light up to 65504; negative values and NaN count as dark. Formats
+## of 8 bits are taken for sRGB.
 @export var panorama: Texture2D:
 	set(value):
 		if panorama == value:
@@ -75,6 +76,9 @@ var _error := ""
 # Whether the light is older than the properties.
 var _stale := true
 var _queued := false
+# What is being drawn. Not a variable of rebuild(), which would keep it for ever if the node were
+# freed meanwhile.
+var _pyramid: Pyramid
 # Counts rebuilds, so that one that has been overtaken can tell.
 var _generation := 0
 
@@ -150,6 +154,7 @@ func rebuild() -> bool:
 	_stale = false
 	_generation += 1
 	var generation := _generation
+	_pyramid = null
 	_error = _find_obstacle()
 	if _error:
 		if panorama != null:
@@ -157,17 +162,18 @@ func rebuild() -> bool:
 		_set_light(null)
 		return false
 
-	var pyramid := Pyramid.new()
+	_pyramid = Pyramid.new()
 	var face_size := size if size > 0 else Pyramid.automatic_size(panorama)
-	pyramid.start(panorama, face_size, filter as Pyramid.Filter)
+	var used_filter := filter as Pyramid.Filter
+	_pyramid.start(panorama, face_size, used_filter)
 	await RenderingServer.frame_post_draw
-	while generation != _generation:
-		# A later call is at it; its result is this one's too.
-		generation = _generation
-		await rebuild_finished
-		if generation == _generation:
-			return _light != null
-	var faces := pyramid.finish()
+	if generation != _generation:
+		# A later call is at it, or has been; its result is this one's too.
+		while _pyramid != null:
+			await rebuild_finished
+		return _light != null
+	var faces := _pyramid.finish()
+	_pyramid = null
 	if faces.is_empty():
 		_error = "The renderer did not draw the pyramid."
 		push_warning("LobeEnvironment3D: " + _error)
@@ -177,11 +183,10 @@ func rebuild() -> bool:
 	var light := EnvironmentLight.new()
 	light.cubemap = Cubemap.new()
 	light.cubemap.create_from_images(faces)
-	light.size = pyramid.size
-	light.level_variance = Pyramid.LEVEL_VARIANCES[filter]
-	light.is_even = filter == Filter.GAUSSIAN
+	light.size = face_size
+	light.level_variance = Pyramid.LEVEL_VARIANCES[used_filter]
+	light.is_even = used_filter == Pyramid.Filter.GAUSSIAN
 	_set_light(light)
-	rebuilt.emit()
 	return true
 
 
@@ -199,6 +204,8 @@ func _set_light(light: EnvironmentLight) -> void:
 	_light = light
 	_update_placement()
 	_check_in()
+	if light != null:
+		rebuilt.emit()
 	rebuild_finished.emit()
 
 
