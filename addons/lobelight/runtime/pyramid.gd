@@ -16,7 +16,7 @@ const ReduceShader := preload("shaders/pyramid_reduce.gdshader")
 
 ## By filter, a third of the variance that a level's kernel has per axis, in solid angles of the
 ## finer level's texels: c in shaders/environment.gdshaderinc.
-const LEVEL_VARIANCES: Array[float] = [1.0 / 12.0, 1.0 / 4.0, 1.0 / 2.0]
+const LEVEL_VARIANCES: Array[float] = [1.0 / 12.0, 1.0 / 4.0, 5.0 / 6.0]
 ## Texels along the side of a face: the least and the most that can be asked for.
 const MIN_SIZE := 4
 const MAX_SIZE := 2048
