@@ -83,7 +83,6 @@ godot_rendered() {
   if [[ ${LOBELIGHT_DISPLAY:-own} == real ]]; then
     "$GODOT" "${arguments[@]}" "$@"
   else
-    xvfb-run --auto-servernum --server-args "-screen 0 1920x1080x24" \
-      "$GODOT" "${arguments[@]}" "$@"
+    bash "$ROOT/tools/lib/with_display.sh" "$GODOT" "${arguments[@]}" "$@"
   fi
 }

@@ -10,7 +10,7 @@ PACKAGE_PROBES=(
   "command git git"
   "command patchelf patchelf"
   "command shellcheck shellcheck"
-  "command xvfb-run xvfb"
+  "command Xvfb xvfb"
   "command xauth xauth"
   "header glm/glm.hpp libglm-dev"
   "header doctest/doctest.h doctest-dev"
