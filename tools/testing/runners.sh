@@ -76,6 +76,13 @@ run_commands() {
   judge commands
 }
 
+# What ./dev compare finds, against the project's bounds.
+run_accuracy() {
+  need_import
+  run_logged accuracy in_time "$PYTHON" "$ROOT/tests/commands/accuracy_test.py"
+  judge accuracy
+}
+
 # The judge of the runners.
 run_harness() {
   run_logged harness in_time "$PYTHON" "$ROOT/tools/testing/results_test.py"
