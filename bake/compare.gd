@@ -81,9 +81,7 @@ func _bake_tables() -> Dictionary[String, LobeTable]:
 
 
 func _compare(panorama: Dictionary, tables: Dictionary[String, LobeTable]) -> void:
-	var reference := await NativeLibrary.run(
-		NativeLibrary.create(&"LobeReference"), _reference_options(), "integrating", self
-	)
+	var reference := await ReferenceCache.render(_reference_options(), self)
 	if reference.has("error"):
 		_arguments.fail(reference["error"])
 		return
