@@ -112,8 +112,8 @@ func _bake(recipe: Dictionary, out: String) -> void:
 				% [
 					out,
 					table.brdf,
-					table.alpha.x,
-					table.alpha.y,
+					String.num(table.alpha.x, 6),
+					String.num(table.alpha.y, 6),
 					table.lobe_count,
 					table.views.x,
 					table.views.y,
@@ -129,7 +129,7 @@ func _summary(result: Dictionary, out: String) -> Dictionary:
 	return {
 		"out": out,
 		"brdf": result["brdf"],
-		"alpha": [result["alpha"].x, result["alpha"].y],
+		"alpha": LobeTable.plain_numbers(result["alpha"]),
 		"lobes": result["lobes"],
 		"views": [result["views"].x, result["views"].y],
 		"method": result["method"],

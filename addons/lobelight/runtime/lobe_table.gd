@@ -214,7 +214,10 @@ func to_json_dictionary() -> Dictionary:
 				)
 			directions.append({"view": [view.x, view.y, view.z], "lobes": lobes})
 	return {
-		"brdf": brdf, "alpha": [alpha.x, alpha.y], "lobes": lobe_count, "directions": directions
+		"brdf": brdf,
+		"alpha": plain_numbers(alpha),
+		"lobes": lobe_count,
+		"directions": directions,
 	}
 
 
@@ -229,6 +232,11 @@ func _decode(view: Vector3, column: float, row: float, placement: Transform2D) -
 		var mean := 2.0 * cosine * half_vector - view
 		lobes.append({"weight": texel.a, "mean": mean, "kappa": pow(2.0, texel.b) / cosine})
 	return lobes
+
+
+## Single-precision numbers as a person would write them: 0.1, not 0.10000000149.
+static func plain_numbers(pair: Vector2) -> Array[float]:
+	return [String.num(pair.x, 7).to_float(), String.num(pair.y, 7).to_float()]
 
 
 func _interpolate(lobe: int, column: float, row: float) -> Color:
