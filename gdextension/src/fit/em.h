@@ -4,8 +4,8 @@
 
 #include "base/progress.h"
 #include "fit/mirror.h"
-#include "fit/mixture.h"
 #include "fit/slice.h"
+#include "sg/mixture.h"
 
 namespace lobelight {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fit/mixture.h"
 #include "fit/slice.h"
+#include "sg/mixture.h"
 
 namespace lobelight {
 

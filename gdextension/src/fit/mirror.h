@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fit/mixture.h"
+#include "sg/mixture.h"
 
 namespace lobelight {
 

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "fit/mixture.h"
+#include "sg/mixture.h"
 
 namespace lobelight {
 

@@ -1,4 +1,4 @@
-#include "fit/mixture.h"
+#include "sg/mixture.h"
 
 namespace lobelight {
 

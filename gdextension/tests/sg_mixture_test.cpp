@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fit/mixture.h"
+#include "sg/mixture.h"
 #include "statistics.h"
 
 namespace lobelight {
