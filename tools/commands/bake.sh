@@ -2,6 +2,25 @@
 # fits a BRDF by lobes in the C++ library and saves the table (--brdf --alpha AX,AY --lobes N --out X.res)
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
+usage() {
+  cat <<USAGE
+usage: ./dev bake --brdf ward|ward_bounded|ggx --alpha AX,AY --lobes N --out X.res [OPTIONS]
+
+--recipe FILE.json   brdf, alpha, lobes, views, method, seed and threads; options go before it
+--views T,P          elevations and azimuths of the view (default 16,1 isotropic, 16,8 anisotropic)
+--method M           continuation (default) or independent
+--seed N, --threads N
+--out X.res|X.tres   the table, a LobeTable resource
+--export X.json      the lobes themselves
+--json FILE          time, memory, iterations and log-likelihoods
+USAGE
+}
+
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+  usage
+  exit 0
+fi
+
 need_engine
 need_library
 need_import

@@ -2,12 +2,33 @@
 # draws one sphere by several methods beside a reference (--env FILE --brdf B --alpha AX,AY --methods M,M --out DIR)
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
+usage() {
+  cat <<USAGE
+usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out DIR [OPTIONS]
+
+--methods       gmm<lobes> (gmm4, gmm8, gmm16 …) and reference; others come later
+--size N        pixels along the side (default 256)
+--renderer R    mobile (default), gl_compatibility or forward_plus
+--filter F      of the pyramid: gaussian (default), binomial or box
+--samples N     of the reference, a pixel
+--json FILE     writes metrics.json there too
+
+Writes reference.exr, <method>.exr (linear radiance), <method>_difference.png, sheet.png and metrics.json.
+PSNR: over the sphere's pixels with x² + y² < 0.9995; exposure takes the reference's median of (R+G+B)/3
+to 0.18; clamped to [0, 1]; power 1/2.2; −10 log10 of the mean squared error of the three channels.
+USAGE
+}
+
 renderer=mobile
 json=""
 out=""
 arguments=()
 while (($# > 0)); do
   case $1 in
+    -h | --help)
+      usage
+      exit 0
+      ;;
     --renderer | --json | --out)
       (($# > 1)) || die "compare: $1 needs a value"
       case $1 in
