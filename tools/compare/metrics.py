@@ -186,7 +186,7 @@ def judge(folder):
         write_atomically(
             os.path.join(folder, method + "_difference.png"), Image.fromarray(difference).save
         )
-        caption = f"{method}  {row['psnr']:.2f} dB\nFLIP {row['flip']:.4f}, error ×{DIFFERENCE_GAIN}"
+        caption = f"{method}  {row['psnr']:.2f} dB\nFLIP {row['flip']:.4f}, error x{DIFFERENCE_GAIN}"
         columns.append((caption, to_bytes(shown), difference))
 
     alpha = plan["alpha"]
