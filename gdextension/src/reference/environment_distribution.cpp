@@ -12,7 +12,7 @@ namespace {
 
 // So many that what a cluster's mean direction misses is little light; so few that looking at each
 // of them costs less than the samples of a pixel.
-constexpr std::size_t kClusters = 4096;
+constexpr std::size_t kClusters = 8192;
 
 double brightness(const glm::vec4& texel) {
   return (static_cast<double>(texel.r) + static_cast<double>(texel.g) +
@@ -25,21 +25,23 @@ double sample_tent(double u) {
   return u < 0.5 ? std::sqrt(2.0 * u) - 1.0 : 1.0 - std::sqrt(2.0 * (1.0 - u));
 }
 
-// Brightness above the mean times the sine of the polar angle, for each texel.
+// Brightness above the map's geometric mean times the sine of the polar angle, for each texel.
 std::vector<double> texel_weights(const std::vector<glm::vec4>& texels, int width, int height) {
+  // Black texels count as much darker than any that matters, not as −∞.
+  constexpr double kBlack = 1e-30;
   std::vector<double> weights(texels.size());
-  double sum = 0.0;
-  double area = 0.0;
   const auto sine = [&](std::size_t texel) {
     const std::size_t row = texel / static_cast<std::size_t>(width);
     return std::sin(glm::pi<double>() * (static_cast<double>(row) + 0.5) / height);
   };
+  double sum = 0.0;
+  double area = 0.0;
   for (std::size_t i = 0; i < texels.size(); ++i) {
-    sum += brightness(texels[i]) * sine(i);
+    sum += std::log(std::max(brightness(texels[i]), kBlack)) * sine(i);
     area += sine(i);
   }
-  // Rounding alone can lift texels of a constant panorama above its mean.
-  const double mean = (1.0 + 1e-9) * sum / area;
+  // Rounding alone must not lift texels of a constant panorama above its mean.
+  const double mean = (1.0 + 1e-9) * std::exp(sum / area);
   for (std::size_t i = 0; i < texels.size(); ++i) {
     weights[i] = std::max(0.0, brightness(texels[i]) - mean) * sine(i);
   }
@@ -55,13 +57,11 @@ EnvironmentDistribution::EnvironmentDistribution(const Panorama& panorama)
           3 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {
     throw std::invalid_argument("A panorama needs at least one texel and three values in each.");
   }
-  const auto light = [](float value) {
-    return value >= 0.0f && std::isfinite(value) ? value : 0.0f;
-  };
-  texels_.resize(panorama.rgb.size() / 3);
+  Panorama clean = panorama;
+  clean.sanitise();
+  texels_.resize(clean.rgb.size() / 3);
   for (std::size_t i = 0; i < texels_.size(); ++i) {
-    const float* rgb = &panorama.rgb[3 * i];
-    texels_[i] = {light(rgb[0]), light(rgb[1]), light(rgb[2]), 0.0f};
+    texels_[i] = {clean.rgb[3 * i], clean.rgb[3 * i + 1], clean.rgb[3 * i + 2], 0.0f};
   }
   const std::vector<double> weights = texel_weights(texels_, width_, height_);
   light_ = make_light_clusters(width_, height_, weights, kClusters);

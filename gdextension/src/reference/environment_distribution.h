@@ -28,12 +28,12 @@ struct ClusterChoice {
 
 // A panorama's radiance, with densities over directions for importance sampling.
 //
-// A texel's weight is its brightness above the map's mean times its solid angle. The mean is left
-// out because samples of the BRDF cover it better: Karlík et al. 2019, "MIS compensation:
-// optimizing sampling techniques in multiple importance sampling", section 5. A direction is drawn
-// by choosing a cluster, a texel in it and a place under the texel's interpolation tent; so the
-// density is the bilinear interpolation of weights, just as the radiance is that of values, and
-// positive wherever a bright texel reaches.
+// A texel's weight is its brightness above the map's typical one (the geometric mean, which a sun
+// does not move) times its solid angle. The rest is left out because samples of the BRDF cover it
+// better: compare Karlík et al. 2019, "MIS compensation: optimizing sampling techniques in multiple
+// importance sampling", section 5. A direction is drawn by choosing a cluster, a texel in it and a
+// place under the texel's interpolation tent; so the density is the bilinear interpolation of
+// weights, just as the radiance is that of values, and positive wherever a bright texel reaches.
 class EnvironmentDistribution {
  public:
   // Copies what it needs. Negative and non-finite values count as 0. Throws std::invalid_argument
