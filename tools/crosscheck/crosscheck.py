@@ -220,6 +220,18 @@ def comparisons(arguments, reference, folder):
             yield lambda p=panorama, m=material, s=size, n=samples: check_mitsuba(reference, p, m, s, n)
 
 
+def check_arguments(arguments):
+    for panorama in arguments.env:
+        if not panorama.is_file():
+            raise CheckError(f"{panorama}: no such file")
+        try:
+            contract.read_panorama(panorama)
+        except (KeyError, OSError, RuntimeError, TypeError) as error:
+            raise CheckError(f"{panorama}: is not an EXR with channels R, G and B") from error
+    if arguments.json and not arguments.json.absolute().parent.is_dir():
+        raise CheckError(f"{arguments.json}: its folder does not exist")
+
+
 def main():
     parser = argparse.ArgumentParser(prog="./dev crosscheck", description="Checks the reference integrator.")
     parser.add_argument("--tool", required=True, help=argparse.SUPPRESS)
@@ -232,9 +244,7 @@ def main():
 
     results = []
     try:
-        for panorama in arguments.env:
-            if not panorama.is_file():
-                raise CheckError(f"{panorama}: no such file")
+        check_arguments(arguments)
         with tempfile.TemporaryDirectory(prefix="lobelight-") as folder:
             reference = Reference(arguments.tool, folder)
             for compare in comparisons(arguments, reference, Path(folder)):
