@@ -203,6 +203,17 @@ func test_files_keep_the_table(path: String, _test_parameters := FILES) -> void:
 	DirAccess.remove_absolute(path)
 
 
+func test_equal_tables_are_saved_as_equal_bytes() -> void:
+	var sums: Array[String] = []
+	for path: String in ["user://first_table_test.res", "user://second_table_test.res"]:
+		var table := LobeTable.from_baked(_baked({}))
+		assert_int(ResourceSaver.save(table, path, ResourceSaver.FLAG_COMPRESS)).is_equal(OK)
+		sums.append(FileAccess.get_sha256(path))
+		DirAccess.remove_absolute(path)
+	assert_str(sums[0]).is_not_empty()
+	assert_str(sums[0]).is_equal(sums[1])
+
+
 func test_changes_are_told_and_renew_the_texture() -> void:
 	var table := _make_table(2, Vector2i(4, 3), Vector2(0.1, 0.2))
 	var told := [0]

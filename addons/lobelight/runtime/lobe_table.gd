@@ -90,6 +90,9 @@ static func from_baked(result: Dictionary) -> LobeTable:
 		)
 		return null
 	table.image = Image.create_from_data(width, height, false, Image.FORMAT_RGBAH, data)
+	# Otherwise random: equal tables are to be saved as equal bytes.
+	table.resource_scene_unique_id = "table"
+	table.image.resource_scene_unique_id = "lobes"
 	var problem := table.get_problem()
 	if problem:
 		push_error("LobeTable.from_baked: " + problem)
