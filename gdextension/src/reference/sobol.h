@@ -21,7 +21,7 @@ class SobolPoints {
   glm::dvec2 scrambled(std::size_t index, std::uint64_t seed) const;
 
  private:
-  std::vector<glm::uvec2> points_;  // 32-bit fixed point, most significant bit first
+  std::vector<glm::uvec2> points_;  // 32-bit fractions, their bits reversed for the scramble.
 };
 
 // Mixes a 64-bit number so that neighbouring inputs give unrelated outputs.
