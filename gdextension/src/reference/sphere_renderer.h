@@ -15,7 +15,7 @@ namespace lobelight {
 struct SphereOptions {
   int size = 256;  // Width and height in pixels, 1 to 8192.
   // BRDF samples a pixel, and as many of the environment; 16 to 2^24. 2048 agree with twice as many
-  // by 57 dB or better on every map tried, down to widths of (0.01, 0.2); strips narrower than that
+  // by more than 56 dB on every map tried, down to widths of (0.01, 0.2); strips narrower than that
   // (0.001, 0.2) need 16 times as many for 55 dB.
   int samples = 2048;
   std::uint64_t seed = 0;  // Different seeds give independent noise.
