@@ -179,7 +179,7 @@ TEST_CASE("Names and widths are refused by a sentence that names them") {
   }
   CHECK_THROWS_WITH_AS(
       make_brdf("phong", {0.1, 0.1}),
-      R"(brdf is "phong", which is not known; known are "ward", "ward_bounded", "ggx".)",
+      R"(brdf is "phong", which is not known; known are "ward", "ward_bounded", "ggx", and files of measurements (.binary, .bsdf).)",
       std::invalid_argument);
   CHECK_THROWS_WITH_AS(make_brdf("ward", {0.1, -0.25}),
                        "alpha is (0.1, -0.25), but both widths must be between 0.0001 and 2.",

@@ -143,13 +143,17 @@ class Warp {
     }
   }
 
-  glm::dvec2 operator()(const glm::dvec2& u) const {
-    const double y = find(below_, u.y);
-    return {find(line(y), u.x), y};
+  // The points of one row, all with the same u.y.
+  std::vector<glm::dvec2> row(double u_y, const std::vector<double>& u_x) const {
+    const double y = find(below_, u_y);
+    const std::vector<double> sums = line(y);
+    std::vector<glm::dvec2> points;
+    for (const double u : u_x) points.emplace_back(find(sums, u), y);
+    return points;
   }
 
  private:
-  static constexpr std::size_t kSteps = 2048;
+  static constexpr std::size_t kSteps = 1024;
 
   // Sums of the values at height y from x = 0 on.
   std::vector<double> line(double y) const {
@@ -230,8 +234,11 @@ std::vector<char> rgl_file(const RglRecipe& recipe) {
       const std::size_t first = rgb.size();
       rgb.resize(first + 3 * n * n);
       for (std::size_t row = 0; row < n; ++row) {
+        std::vector<double> u_x;
+        for (std::size_t column = 0; column < n; ++column) u_x.push_back(point(row, column).x);
+        const std::vector<glm::dvec2> warped = warp.row(point(row, 0).y, u_x);
         for (std::size_t column = 0; column < n; ++column) {
-          const glm::dvec2 at = warp(point(row, column));
+          const glm::dvec2 at = warped[column];
           const glm::dvec3 m = normal_at(at, isotropic ? azimuth : 0.0);
           const glm::dvec3 i = 2.0 * glm::dot(o, m) * m - o;
           glm::dvec3 value(0.0);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "brdf/ggx.h"
+#include "brdf/measured.h"
 #include "brdf/ward.h"
 
 namespace lobelight {
@@ -20,12 +21,19 @@ const std::vector<std::string>& brdf_names() {
 }
 
 std::unique_ptr<Brdf> make_brdf(std::string_view name, const glm::dvec2& alpha) {
+  const bool is_file = is_measured_file(name);
+  const bool estimated = is_file && alpha == glm::dvec2(0.0);
   // Negated comparisons would let NaN through.
-  if (!valid_width(alpha.x) || !valid_width(alpha.y)) {
+  if (!estimated && (!valid_width(alpha.x) || !valid_width(alpha.y))) {
     std::ostringstream message;
     message << "alpha is (" << alpha.x << ", " << alpha.y << "), but both widths must be between "
             << kMinAlpha << " and " << kMaxAlpha << ".";
     throw std::invalid_argument(message.str());
+  }
+  if (is_file) {
+    const std::string path(name);
+    return std::make_unique<MeasuredBrdf>(read_measured(path),
+                                          path.substr(path.find_last_of("/\\") + 1), alpha);
   }
   if (name == "ward") return std::make_unique<Ward>(alpha);
   if (name == "ward_bounded") return std::make_unique<WardBounded>(alpha);
@@ -38,7 +46,7 @@ std::unique_ptr<Brdf> make_brdf(std::string_view name, const glm::dvec2& alpha) 
     message << separator << '"' << known << '"';
     separator = ", ";
   }
-  message << '.';
+  message << ", and files of measurements (.binary, .bsdf).";
   throw std::invalid_argument(message.str());
 }
 

@@ -16,8 +16,8 @@ struct BrdfSample {
 };
 
 // A reflectance in the tangent frame: x = tangent, y = bitangent, z = normal. `i` points to the
-// light, `o` to the viewer; both are unit vectors. Fresnel's factor is 1: whoever shades multiplies
-// by it. Every model here is its own mirror image in the planes x = 0 and y = 0.
+// light, `o` to the viewer; both are unit vectors. Fresnel's factor is 1 in the models: whoever
+// shades multiplies by it. Every BRDF here is its own mirror image in the planes x = 0 and y = 0.
 class Brdf {
  public:
   virtual ~Brdf() = default;
@@ -38,6 +38,15 @@ class Brdf {
   // Widths along x and y.
   glm::dvec2 alpha() const { return alpha_; }
 
+  // Whether only the difference of the azimuths counts.
+  virtual bool is_isotropic() const { return alpha_.x == alpha_.y; }
+
+  // The three channels of a coloured reflectance, whose mean evaluate() is; others have none.
+  virtual bool is_coloured() const { return false; }
+  virtual glm::dvec3 evaluate_rgb(const glm::dvec3& i, const glm::dvec3& o) const {
+    return glm::dvec3(evaluate(i, o));
+  }
+
  protected:
   explicit Brdf(const glm::dvec2& alpha) : alpha_(alpha) {}
 
@@ -52,8 +61,10 @@ const std::vector<std::string>& brdf_names();
 constexpr double kMinAlpha = 1e-4;
 constexpr double kMaxAlpha = 2.0;
 
-// The model called `name`. Throws std::invalid_argument with a whole sentence for a name that
-// brdf_names() does not list and for a width that is not in [kMinAlpha, kMaxAlpha].
+// The model called `name`, or the measurements in the file of that path (is_measured_file()).
+// Throws std::invalid_argument with a whole sentence for a name that brdf_names() does not list and
+// for a width that is not in [kMinAlpha, kMaxAlpha], and MeasuredFileError. For files, `alpha` may
+// be (0, 0): the widths are then estimated; what a file reflects does not depend on them.
 std::unique_ptr<Brdf> make_brdf(std::string_view name, const glm::dvec2& alpha);
 
 }  // namespace lobelight
