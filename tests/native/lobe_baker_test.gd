@@ -45,7 +45,10 @@ const ALBEDO_REFUSED := [
 		"phong",
 		Vector2(0.1, 0.1),
 		Vector3(0, 0, 1),
-		'brdf is "phong", which is not known; known are "ward", "ward_bounded", "ggx", and files of measurements (.binary, .bsdf).',
+		(
+			'brdf is "phong", which is not known; known are "ward", "ward_bounded", "ggx", '
+			+ "and files of measurements (.binary, .bsdf)."
+		),
 	],
 	[
 		"ward",

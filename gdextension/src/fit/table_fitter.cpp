@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "brdf/measured.h"
 #include "fit/initial_guess.h"
 #include "table/half_vector.h"
 
@@ -27,13 +28,14 @@ constexpr double kGoldenRatioFraction = 0.61803398874989484820;
 // One bake: everything that is shared by its views.
 class TableFit {
  public:
-  TableFit(const Recipe& recipe, const FitOptions& options, Progress& progress, FitReport& report)
+  TableFit(const Brdf& brdf, const Recipe& recipe, const FitOptions& options, Progress& progress,
+           FitReport& report)
       : recipe_(recipe),
         options_(options),
         progress_(progress),
         report_(report),
-        brdf_(make_brdf(recipe.brdf, recipe.alpha)),
-        table_(recipe.alpha, recipe.lobes, resolve_views(recipe)) {
+        brdf_(brdf),
+        table_(brdf.alpha(), recipe.lobes, resolve_views(recipe, brdf.is_isotropic())) {
     options_.em.progress = &progress;
     const double turns = static_cast<double>(recipe.seed % 1048576) * kGoldenRatioFraction;
     rotation_ = turns - std::floor(turns);
@@ -71,7 +73,7 @@ class TableFit {
   FitOptions options_;
   Progress& progress_;
   FitReport& report_;
-  std::unique_ptr<Brdf> brdf_;
+  const Brdf& brdf_;
   LobeTable table_;
   double rotation_ = 0.0;
   std::mutex finished_mutex_;
@@ -80,7 +82,7 @@ class TableFit {
 
 Mixture TableFit::fit_view(int t, int p, Mixture start, std::vector<Mirror> mirrors) {
   progress_.throw_if_cancelled();
-  const Slice slice = sample_slice(*brdf_, table_.view(t, p), options_.nodes_per_axis, rotation_);
+  const Slice slice = sample_slice(brdf_, table_.view(t, p), options_.nodes_per_axis, rotation_);
   if (start.empty()) start = initial_guess(slice, recipe_.lobes);
   EmOptions em = options_.em;
   em.mirrors = std::move(mirrors);
@@ -130,7 +132,7 @@ void lift_above_horizon(Mixture& mixture) {
 void TableFit::fit_by_continuation() {
   // Normal incidence is symmetric in both planes; the planes that count are those that the table is
   // mirrored in and, for isotropic ones, the plane of incidence.
-  const Slice slice = sample_slice(*brdf_, table_.view(0, 0), options_.nodes_per_axis, rotation_);
+  const Slice slice = sample_slice(brdf_, table_.view(0, 0), options_.nodes_per_axis, rotation_);
   Mixture start = initial_guess(slice, recipe_.lobes);
   std::vector<Mirror> mirrors;
   if (options_.keep_mirror_symmetry) {
@@ -181,44 +183,77 @@ FitMethod fit_method_from_string(std::string_view name) {
   refuse(sentence);
 }
 
-glm::ivec2 resolve_views(const Recipe& recipe) {
+glm::ivec2 resolve_views(const Recipe& recipe, bool isotropic) {
   glm::ivec2 views = recipe.views;
   if (views.x == 0) views.x = 16;
-  if (views.y == 0) views.y = recipe.alpha.x == recipe.alpha.y ? 1 : 8;
+  if (views.y == 0) views.y = isotropic ? 1 : 8;
   return views;
 }
 
-void validate(const Recipe& recipe) {
-  make_brdf(recipe.brdf, recipe.alpha);  // refuses unknown names and widths out of range
+glm::ivec2 resolve_views(const Recipe& recipe) {
+  return resolve_views(recipe, recipe.alpha.x == recipe.alpha.y);
+}
+
+namespace {
+
+// What does not depend on the BRDF.
+void validate_counts(const Recipe& recipe) {
   std::ostringstream sentence;
   if (recipe.lobes < 1 || recipe.lobes > kMaxLobes) {
     sentence << "lobes is " << recipe.lobes << ", but must be between 1 and " << kMaxLobes << ".";
     refuse(sentence);
   }
-  const glm::ivec2 views = resolve_views(recipe);
+  const glm::ivec2 views = resolve_views(recipe, true);
   if (views.x < 2 || views.x > kMaxViews || views.y < 1 || views.y > kMaxViews) {
     sentence << "views is (" << recipe.views.x << ", " << recipe.views.y << "), but needs 2 to "
              << kMaxViews << " elevations and 1 to " << kMaxViews
              << " azimuths (0 for the default).";
     refuse(sentence);
   }
-  if (views.y == 1 && recipe.alpha.x != recipe.alpha.y) {
+}
+
+// What does.
+void validate_material(const Recipe& recipe, const glm::dvec2& alpha, bool isotropic) {
+  const glm::ivec2 views = resolve_views(recipe, isotropic);
+  std::ostringstream sentence;
+  if (views.y == 1 && !isotropic) {
     sentence << "views is (" << recipe.views.x << ", " << recipe.views.y
              << "), but an anisotropic alpha needs at least 2 azimuths.";
     refuse(sentence);
   }
+  if (views.y == 1 && alpha.x != alpha.y) {
+    sentence << "alpha is (" << alpha.x << ", " << alpha.y
+             << "), but the measurements are isotropic: both widths must be equal.";
+    refuse(sentence);
+  }
+}
+
+}  // namespace
+
+void validate(const Recipe& recipe) {
+  validate_counts(recipe);
+  if (is_measured_file(recipe.brdf)) return;
+  const auto brdf = make_brdf(recipe.brdf, recipe.alpha);  // refuses unknown names, widths
+  validate_material(recipe, brdf->alpha(), brdf->is_isotropic());
+}
+
+LobeTable fit_table(const Brdf& brdf, const Recipe& recipe, Progress& progress, FitReport* report,
+                    const FitOptions& options) {
+  validate_counts(recipe);
+  validate_material(recipe, brdf.alpha(), brdf.is_isotropic());
+  const auto start = std::chrono::steady_clock::now();
+  FitReport own;
+  FitReport& used = report ? *report : own;
+  used = {};
+  LobeTable table = TableFit(brdf, recipe, options, progress, used).run();
+  used.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return table;
 }
 
 LobeTable fit_table(const Recipe& recipe, Progress& progress, FitReport* report,
                     const FitOptions& options) {
   validate(recipe);
-  const auto start = std::chrono::steady_clock::now();
-  FitReport own;
-  FitReport& used = report ? *report : own;
-  used = {};
-  LobeTable table = TableFit(recipe, options, progress, used).run();
-  used.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return table;
+  return fit_table(*make_brdf(recipe.brdf, recipe.alpha), recipe, progress, report, options);
 }
 
 }  // namespace lobelight

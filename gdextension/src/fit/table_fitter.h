@@ -22,10 +22,10 @@ std::string_view to_string(FitMethod method);
 FitMethod fit_method_from_string(std::string_view name);
 
 struct Recipe {
-  std::string brdf = "ward";
-  glm::dvec2 alpha{0.1, 0.1};
+  std::string brdf = "ward";   // as make_brdf() takes it: a model's name or a file's path
+  glm::dvec2 alpha{0.1, 0.1};  // (0, 0) for files: estimated
   int lobes = 8;
-  // Elevations × azimuths; 0 = default: 16 × 1 where both widths are equal, 16 × 8 otherwise.
+  // Elevations × azimuths; 0 = default: 16 × 1 for isotropic materials, 16 × 8 for others.
   glm::ivec2 views{0, 0};
   FitMethod method = FitMethod::continuation;
   std::uint64_t seed = 0;
@@ -35,10 +35,13 @@ struct Recipe {
 constexpr int kMaxLobes = 32;
 constexpr int kMaxViews = 256;
 
-// Throws std::invalid_argument with one sentence that names the key and the value.
+// Throws std::invalid_argument with one sentence that names the key and the value. Files are not
+// read: what is wrong with one shows when it is fitted.
 void validate(const Recipe& recipe);
 
-// The recipe's views with the defaults filled in.
+// The recipe's views with the defaults filled in for a material that is isotropic or is not; a
+// model is isotropic if both widths are equal.
+glm::ivec2 resolve_views(const Recipe& recipe, bool isotropic);
 glm::ivec2 resolve_views(const Recipe& recipe);
 
 // How a fit went. View (t, p) is element p · T + t.
@@ -59,9 +62,13 @@ struct FitOptions {
   bool keep_mirror_symmetry = true;
 };
 
-// Fits the recipe's table; the bytes are the same for any number of threads. Throws
-// std::invalid_argument as validate() does and Cancelled. `report` may be null.
+// Fits the recipe's table; the bytes are the same for any number of threads. Throws what validate()
+// and make_brdf() do, and Cancelled. `report` may be null.
 LobeTable fit_table(const Recipe& recipe, Progress& progress, FitReport* report,
+                    const FitOptions& options = {});
+
+// The same for a BRDF at hand; the recipe's `brdf` and `alpha` count for nothing.
+LobeTable fit_table(const Brdf& brdf, const Recipe& recipe, Progress& progress, FitReport* report,
                     const FitOptions& options = {});
 
 }  // namespace lobelight
