@@ -1,28 +1,37 @@
 extends SceneTree
 ## `./dev compare`: one sphere drawn by several methods and by the reference integrator.
 ##
-## Writes reference.exr, reference_error.exr, <method>.exr and plan.json; tools/compare/metrics.py
-## turns them into figures and pictures.
+## Writes reference.exr, reference_error.exr, <method>.exr and plan.json, which says what was drawn
+## and how; tools/compare/metrics.py turns them into figures and pictures.
 
 const OPTIONS: PackedStringArray = [
-	"env", "brdf", "alpha", "methods", "size", "samples", "filter", "out"
+	"env",
+	"brdf",
+	"alpha",
+	"methods",
+	"size",
+	"samples",
+	"filter",
+	"coverage",
+	"views",
+	"bias",
+	"timing-rounds",
+	"out",
 ]
 const LEAST_SIZE := 8
 const LARGEST_SIZE := 2048
-const FILTERS: Dictionary[String, LobeEnvironment3D.Filter] = {
-	"box": LobeEnvironment3D.Filter.BOX,
-	"binomial": LobeEnvironment3D.Filter.BINOMIAL,
-	"gaussian": LobeEnvironment3D.Filter.GAUSSIAN,
-}
-## Rounds in which every method is drawn once for its GPU time; the median is kept.
+## Rounds in which the GPU time of every method is measured once.
 const TIMING_ROUNDS := 15
+const MOST_TIMING_ROUNDS := 10000
 
 var _arguments := CommandLine.new("compare", OPTIONS)
 var _brdf: String
 var _alpha: PackedFloat64Array
-var _methods: PackedStringArray
+var _names: PackedStringArray
 var _size: int
+var _timing_rounds: int
 var _out: String
+var _stage := ComparisonStage.new(self)
 
 
 func _initialize() -> void:
@@ -32,17 +41,19 @@ func _initialize() -> void:
 
 func _run() -> void:
 	_read_arguments()
-	var panorama := {}
 	if _arguments.error.is_empty():
-		panorama = NativeLibrary.load_panorama(_arguments.path("env"))
+		var panorama := NativeLibrary.load_panorama(_arguments.path("env"))
 		_arguments.fail_if(panorama.get("error", ""))
-	var tables: Dictionary[String, LobeTable] = {}
+		if _arguments.error.is_empty():
+			_stage.panorama = _panorama_texture(panorama)
+	var methods: Array[ComparisonMethod] = []
 	if _arguments.error.is_empty():
-		tables = await _bake_tables()
+		methods = await _prepare()
 	if _arguments.error.is_empty():
-		await _compare(panorama, tables)
+		await _compare(methods)
 	if not _arguments.error.is_empty():
 		printerr(_arguments.error_line())
+	_stage = null
 	quit(0 if _arguments.error.is_empty() else 1)
 
 
@@ -51,36 +62,40 @@ func _read_arguments() -> void:
 	_brdf = _arguments.required("brdf")
 	_alpha = _arguments.numbers("alpha", 2, PackedFloat64Array())
 	_arguments.required("alpha")
-	_methods = _arguments.required("methods").split(",", false)
+	_names = _arguments.required("methods").split(",", false)
 	_size = _arguments.integer("size", 256, LEAST_SIZE, LARGEST_SIZE)
-	if _arguments.text("filter", "gaussian") not in FILTERS:
-		_arguments.fail("--filter is %s." % " or ".join(FILTERS.keys()))
+	_timing_rounds = _arguments.integer("timing-rounds", TIMING_ROUNDS, 0, MOST_TIMING_ROUNDS)
+	_stage.filter = _arguments.text("filter", _stage.filter)
+	if _stage.filter not in ComparisonStage.FILTERS:
+		_arguments.fail("--filter is %s." % " or ".join(ComparisonStage.FILTERS.keys()))
+	_stage.fis_bias = _arguments.numbers("bias", 1, [_stage.fis_bias])[0]
+	_stage.toral_coverage = _arguments.numbers("coverage", 1, [_stage.toral_coverage])[0]
+	if not (_stage.toral_coverage > 0.0 and _stage.toral_coverage < 1.0):
+		_arguments.fail("--coverage must be between 0 and 1, not %s." % _arguments.text("coverage"))
+	var views := _arguments.numbers("views", 2, [0.0, 0.0])
+	_stage.toral_views = Vector2i(roundi(views[0]), roundi(views[1]))
 	_arguments.required("out")
 	_out = _arguments.path("out")
-	for method in _methods:
+	for method in _names:
 		_arguments.fail_if(CompareMethods.error(method))
-		if _methods.count(method) > 1:
+		if _names.count(method) > 1:
 			_arguments.fail("method %s is named twice." % method)
 	_arguments.fail_if(NativeLibrary.error())
 
 
-func _bake_tables() -> Dictionary[String, LobeTable]:
-	var tables: Dictionary[String, LobeTable] = {}
-	for method in _methods:
-		if CompareMethods.lobes(method) == 0 or not _arguments.error.is_empty():
+## The methods that are drawn, ready for it; not all of them where one has failed.
+func _prepare() -> Array[ComparisonMethod]:
+	var methods: Array[ComparisonMethod] = []
+	for name in _names:
+		if name == CompareMethods.REFERENCE or not _arguments.error.is_empty():
 			continue
-		var recipe := {"brdf": _brdf, "alpha": Array(_alpha), "lobes": CompareMethods.lobes(method)}
-		var result := await NativeLibrary.run(
-			NativeLibrary.create(&"LobeBaker"), recipe, "baking %s" % method, self
-		)
-		if result.has("error"):
-			_arguments.fail(result["error"])
-		else:
-			tables[method] = LobeTable.from_baked(result)
-	return tables
+		var method := CompareMethods.make(name, _brdf, _alpha)
+		_arguments.fail_if(await method.prepare(_stage))
+		methods.append(method)
+	return methods
 
 
-func _compare(panorama: Dictionary, tables: Dictionary[String, LobeTable]) -> void:
+func _compare(methods: Array[ComparisonMethod]) -> void:
 	var reference := await ReferenceCache.render(_reference_options(), self)
 	if reference.has("error"):
 		_arguments.fail(reference["error"])
@@ -90,15 +105,8 @@ func _compare(panorama: Dictionary, tables: Dictionary[String, LobeTable]) -> vo
 		return
 	_save("reference", reference["pixels"])
 	_save("reference_error", reference["standard_error"])
-	var times := await _draw(panorama, tables)
-	if not _arguments.error.is_empty():
-		return
-	var entries: Array[Dictionary] = []
-	for method in _methods:
-		var entry := CompareMethods.cost(method)
-		entry["method"] = method
-		entry["gpu_ms"] = times.get(method)
-		entries.append(entry)
+	var viewports := await _draw(methods)
+	var times := await _measure(viewports)
 	var plan := {
 		"env": _arguments.path("env"),
 		"brdf": _brdf,
@@ -107,9 +115,25 @@ func _compare(panorama: Dictionary, tables: Dictionary[String, LobeTable]) -> vo
 		"renderer": RenderingServer.get_current_rendering_method(),
 		"driver": RenderingServer.get_video_adapter_name(),
 		"reference_samples": reference["samples"],
-		"methods": entries,
+		"methods": _entries(methods, times),
 	}
 	_arguments.fail_if(AtomicFile.save_json(plan, _out.path_join("plan.json")))
+
+
+## What plan.json says of each method, in the order of the command line.
+func _entries(
+	methods: Array[ComparisonMethod], times: Dictionary[String, PackedFloat32Array]
+) -> Array[Dictionary]:
+	var entries: Array[Dictionary] = []
+	for name in _names:
+		var entry := {"method": name, "fetches": 0, "probes": 0, "table_fetches": 0}
+		for method in methods:
+			if method.name == name:
+				entry.merge(method.cost(), true)
+				entry["settings"] = method.settings()
+		entry["gpu_ms_rounds"] = Array(times.get(name, PackedFloat32Array()))
+		entries.append(entry)
+	return entries
 
 
 func _reference_options() -> Dictionary:
@@ -121,49 +145,39 @@ func _reference_options() -> Dictionary:
 	return options
 
 
-## Draws every method; returns the median GPU time of each in milliseconds.
-func _draw(
-	panorama: Dictionary, tables: Dictionary[String, LobeTable]
-) -> Dictionary[String, float]:
-	var medians: Dictionary[String, float] = {}
-	if tables.is_empty():
-		return medians
-	var environment := LobeEnvironment3D.new()
-	environment.panorama = _panorama_texture(panorama)
-	environment.filter = FILTERS[_arguments.text("filter", "gaussian")]
-	root.add_child(environment)
-	if not await environment.rebuild():
-		_arguments.fail(environment.get_rebuild_error())
-		return medians
+## Draws every method's picture and saves it; returns the viewports, by the methods' names.
+func _draw(methods: Array[ComparisonMethod]) -> Dictionary[String, LinearViewport]:
 	var viewports: Dictionary[String, LinearViewport] = {}
-	for method: String in tables:
+	for method in methods:
 		var viewport := LinearViewport.new(_size)
 		root.add_child(viewport)
-		viewport.add_child(SphereImpostor.make(tables[method]))
-		viewports[method] = viewport
+		viewport.add_child(method.make_sphere())
+		viewports[method.name] = viewport
 		# Drivers compile in the background: the first frames may lack the material.
 		await viewport.measure_gpu_time(2)
 		var picture := await viewport.capture()
 		picture.convert(Image.FORMAT_RGBF)
-		_save(method, picture.get_data().to_float32_array())
-	var times := await _measure(viewports)
-	for method: String in times:
-		medians[method] = LinearViewport.median(times[method])
-	return medians
+		_save(method.name, picture.get_data().to_float32_array())
+	return viewports
 
 
-# Every method once a round, so that what disturbs the machine disturbs all of them.
+## GPU milliseconds of every method, one a round: all of them in each round, so that what disturbs
+## the machine disturbs all of them alike. Empty where the driver gives no times.
 func _measure(
 	viewports: Dictionary[String, LinearViewport]
 ) -> Dictionary[String, PackedFloat32Array]:
 	var times: Dictionary[String, PackedFloat32Array] = {}
+	if viewports.is_empty() or _timing_rounds == 0:
+		return times
+	for name: String in viewports:
+		times[name] = PackedFloat32Array()
 	var line := ProgressLine.new("timing")
-	for round_index in TIMING_ROUNDS:
-		line.show(float(round_index) / TIMING_ROUNDS)
-		for method: String in viewports:
-			var samples: PackedFloat32Array = times.get(method, PackedFloat32Array())
-			samples.append_array(await viewports[method].measure_gpu_time(1, 1))
-			times[method] = samples
+	for round_index in _timing_rounds:
+		line.show(float(round_index) / _timing_rounds)
+		for name: String in viewports:
+			var samples := await viewports[name].measure_gpu_time(3, 3)
+			if not samples.is_empty():
+				times[name].append(LinearViewport.median(samples))
 	line.finish()
 	return times
 

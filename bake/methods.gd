@@ -2,44 +2,46 @@ class_name CompareMethods
 extends RefCounted
 ## The methods that `./dev compare` knows by name.
 
-## Named in the contract, built later.
-const PLANNED: PackedStringArray = [
-	"toral8",
-	"toral16",
-	"fis8",
-	"fis16",
-	"fis40",
-	"fis40g",
-	"allfreq1",
-	"allfreq8",
-	"asg",
-	"majoraxis8",
-	"closed8",
-	"stock",
-]
+const Fis := preload("comparators/fis.gd")
+const Gmm := preload("comparators/gmm.gd")
+const Toral := preload("comparators/toral.gd")
+
 const REFERENCE := "reference"
+## Drawn, besides `gmm<lobes>` and the reference.
+const RIVALS: PackedStringArray = ["fis8", "fis16", "fis40", "fis40g", "toral8", "toral16"]
+## Named in the contract, built later.
+const PLANNED: PackedStringArray = ["allfreq1", "allfreq8", "asg", "majoraxis8", "closed8", "stock"]
 
 
 ## One sentence where a name cannot be drawn, otherwise empty.
 static func error(method: String) -> String:
 	if method in PLANNED:
 		return "method %s: not available yet." % method
-	if method != REFERENCE and lobes(method) == 0:
-		return (
-			"method %s is unknown; the methods are gmm<lobes> (gmm4, gmm8, gmm16 …) and reference."
-			% method
-		)
-	return ""
+	if method == REFERENCE or method in RIVALS or _number_after("gmm", method) > 0:
+		return ""
+	return (
+		"method %s is unknown; the methods are gmm<lobes> (gmm4, gmm8, gmm16 …), %s and reference."
+		% [method, ", ".join(RIVALS)]
+	)
 
 
-## The number of lobes of a gmm method, 0 for any other name.
-static func lobes(method: String) -> int:
-	var count := method.trim_prefix("gmm")
-	return count.to_int() if method.begins_with("gmm") and count.is_valid_int() else 0
+## The method of a name that has no [method error]; null for the reference, which is not drawn.
+static func make(method: String, brdf: String, alpha: PackedFloat64Array) -> ComparisonMethod:
+	var made: ComparisonMethod
+	if method.begins_with("gmm"):
+		made = Gmm.make(_number_after("gmm", method))
+	elif method.begins_with("fis"):
+		made = Fis.make(_number_after("fis", method.trim_suffix("g")), method.ends_with("g"))
+	elif method.begins_with("toral"):
+		made = Toral.make(_number_after("toral", method))
+	if made != null:
+		made.name = method
+		made.brdf = brdf
+		made.alpha = alpha
+	return made
 
 
-## What one pixel costs: one environment fetch and one table fetch a lobe; the fetches are
-## isotropic, so the sampler probes once for each.
-static func cost(method: String) -> Dictionary:
-	var count := lobes(method)
-	return {"fetches": count, "probes": count, "table_fetches": count}
+# 0 where the name is not `family` and a whole number.
+static func _number_after(family: String, method: String) -> int:
+	var number := method.trim_prefix(family)
+	return number.to_int() if method.begins_with(family) and number.is_valid_int() else 0

@@ -6,14 +6,23 @@ usage() {
   cat <<USAGE
 usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out DIR [OPTIONS]
 
---methods       gmm<lobes> (gmm4, gmm8, gmm16 …) and reference; others come later
+--methods       gmm<lobes> (gmm4, gmm8, gmm16 …)
+                fis8 fis16 fis40: filtered importance sampling on 2x2 means; fis40g: on the pyramid of gmm
+                toral8 toral16: the thesis as written
+                reference: with itself
 --size N        pixels along the side (default 256)
 --renderer R    mobile (default), gl_compatibility or forward_plus
---filter F      of the pyramid: gaussian (default), binomial or box
+--filter F      of the pyramid of gmm and fis40g: gaussian (default), binomial or box
 --samples N     of the reference, a pixel
+--timing-rounds N   GPU times of every method, in turns (default 15); 0 measures none
+--coverage C    of toral: the share of a lobe that its texels cover (default 0.47)
+--views T,P     of toral: fitted views, elevations and azimuths (default 64,1 or 32,16)
+--bias B        of fis: added to the published level (default 0)
 --json FILE     writes metrics.json there too
 
-Writes reference.exr, <method>.exr (linear radiance), <method>_difference.png, sheet.png and metrics.json.
+Writes reference.exr, <method>.exr (linear radiance), <method>_difference.png, sheet.png, metrics.json and plan.json,
+which says how each method was set up and has the times of the rounds.
+gpu_ms is a median; gpu_ms_ratio the median of each round's time over that of gmm8, or of the first method without it.
 PSNR: over the sphere's pixels with x² + y² < 0.9995; exposure takes the reference's median of (R+G+B)/3
 to 0.18; clamped to [0, 1]; power 1/2.2; −10 log10 of the mean squared error of the three channels.
 USAGE

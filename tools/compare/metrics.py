@@ -11,6 +11,10 @@ Metric (all figures over the pixels with x² + y² < 0.9995, x and y from −1 t
                  clamping to [0, 1] and the power 1/2.2
   flip           mean LDR-FLIP (Andersson et al. 2020) of the same encoded pictures, 0 (same) to 1
   relative_rmse  root of the mean squared error over the root of the reference's mean square, linear
+  gpu_ms         median of the rounds' GPU times
+  gpu_ms_ratio   median over the rounds of the method's time over that of gmm8 (of the first method
+                 drawn where gmm8 is not) in the same round: what slows the machine down for a while
+                 slows down both
 The row `reference` compares the reference with itself plus its standard error, which is half the
 difference of its two independent halves: the change that doubling the samples would bring.
 A picture with a non-finite pixel, and a reference whose median is zero, are errors.
@@ -141,9 +145,22 @@ def draw_sheet(path, title, columns):
     write_atomically(path, sheet.save)
 
 
+def median_ratio(times, baseline):
+    """Of two lists of one time a round; None where either is empty."""
+    ratios = [time / base for time, base in zip(times, baseline) if base > 0]
+    return float(np.median(ratios)) if ratios else None
+
+
+def baseline_of(methods):
+    """The times that the others are related to: (its method, its rounds)."""
+    drawn = [m for m in methods if m["gpu_ms_rounds"]]
+    chosen = next((m for m in drawn if m["method"] == "gmm8"), drawn[0] if drawn else None)
+    return (chosen["method"], chosen["gpu_ms_rounds"]) if chosen else (None, [])
+
+
 def row_of(entry, renderer, picture, reference, exposure, mask, baseline):
     """One row of metrics.json; its keys are the contract of ./dev compare."""
-    gpu_ms = entry["gpu_ms"]
+    times = entry["gpu_ms_rounds"]
     return {
         "method": entry["method"],
         "renderer": renderer,
@@ -153,8 +170,8 @@ def row_of(entry, renderer, picture, reference, exposure, mask, baseline):
         "psnr": psnr(picture, reference, exposure, mask),
         "flip": flip(picture, reference, exposure, mask),
         "relative_rmse": relative_rmse(picture, reference, mask),
-        "gpu_ms": gpu_ms,
-        "gpu_ms_ratio": gpu_ms / baseline if baseline and gpu_ms is not None else None,
+        "gpu_ms": float(np.median(times)) if times else None,
+        "gpu_ms_ratio": median_ratio(times, baseline),
     }
 
 
@@ -164,7 +181,7 @@ def judge(folder):
     reference = read_rgb(os.path.join(folder, "reference.exr"))
     mask = sphere_mask(reference.shape[0])
     exposure = exposure_of(reference, mask)
-    baseline = next((m["gpu_ms"] for m in plan["methods"] if m["method"] == "gmm8"), None)
+    _, baseline = baseline_of(plan["methods"])
 
     rows = []
     shown_reference = encode(reference, exposure) * mask[..., None]
@@ -199,7 +216,8 @@ def judge(folder):
 def print_table(plan, rows):
     alpha = plan["alpha"]
     print(f"{plan['brdf']} ({alpha[0]:g}, {alpha[1]:g})  {os.path.basename(plan['env'])}  {plan['renderer']}")
-    head = ("method", "fetches", "probes", "table", "PSNR dB", "FLIP", "rel. RMSE", "GPU ms", "of gmm8")
+    of_baseline = f"of {baseline_of(plan['methods'])[0] or '–'}"
+    head = ("method", "fetches", "probes", "table", "PSNR dB", "FLIP", "rel. RMSE", "GPU ms", of_baseline)
     print("  ".join(f"{h:>9}" for h in head))
     for row in rows:
         cells = (

@@ -1,0 +1,25 @@
+extends RefCounted
+## The sphere of [SphereImpostor] under another method's shader.
+
+
+## A quad whose material is the shader include [param path] of this folder, which has a function
+## [param function] like lobelight_specular, after the lines [param defines].
+static func make(
+	path: String, function: String, defines: PackedStringArray, parameters: Dictionary
+) -> MeshInstance3D:
+	var folder := SphereImpostor.FRAGMENT_PATH.get_base_dir()
+	var code := "shader_type spatial;\nrender_mode ambient_light_disabled;\n"
+	for define in defines:
+		code += "#define %s\n" % define
+	code += '#include "%s"\n' % folder.path_join("comparators").path_join(path)
+	code += "#define SPHERE_SPECULAR %s\n" % function
+	code += '#include "%s"\n' % SphereImpostor.FRAGMENT_PATH
+	var material := ShaderMaterial.new()
+	material.shader = Shader.new()
+	material.shader.code = code
+	material.set_shader_parameter(&"lobelight_albedo", Vector3.ONE)
+	material.set_shader_parameter(&"lobelight_environment_rotation", Basis.IDENTITY)
+	material.set_shader_parameter(&"lobelight_environment_energy", 1.0)
+	for parameter: StringName in parameters:
+		material.set_shader_parameter(parameter, parameters[parameter])
+	return SphereImpostor.make_quad(material)

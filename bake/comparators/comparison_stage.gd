@@ -1,0 +1,82 @@
+class_name ComparisonStage
+extends RefCounted
+## What the methods of one comparison share: the scene tree, the surroundings in the forms that the
+## methods need, and the options of the command.
+
+const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
+const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
+const DualParaboloidMap := preload("dual_paraboloid_map.gd")
+const FILTERS: Dictionary[String, LobeEnvironment3D.Filter] = {
+	"box": LobeEnvironment3D.Filter.BOX,
+	"binomial": LobeEnvironment3D.Filter.BINOMIAL,
+	"gaussian": LobeEnvironment3D.Filter.GAUSSIAN,
+}
+
+var tree: SceneTree
+var panorama: Texture2D
+## A key of [constant FILTERS]: how the project's own pyramid is made.
+var filter := "gaussian"
+## Of toral: the share c of a lobe that the texels of its level cover (the thesis' alpha). 0.47, or
+## 1 - exp(-2 / pi), makes their variance the lobe's.
+var toral_coverage := 0.47
+## Of toral: the views that are fitted, elevations and azimuths; 0 for the method's own choice.
+var toral_views := Vector2i.ZERO
+## Of fis: added to the level. The chapter of 2007 adds nothing; Křivánek and Colbert 2008,
+## "Real-time Shading with Filtered Importance Sampling", take four times the solid angle, which
+## is 1.
+var fis_bias := 0.0
+
+var _environment: LobeEnvironment3D
+var _lights: Dictionary[String, EnvironmentLight] = {}
+var _map: DualParaboloidMap
+
+
+func _init(scene_tree: SceneTree) -> void:
+	tree = scene_tree
+
+
+func _notification(what: int) -> void:
+	if what == NOTIFICATION_PREDELETE and is_instance_valid(_environment):
+		_environment.free()
+
+
+## Lights every [LobeMaterial3D] by the panorama. Returns one sentence on failure, otherwise empty.
+## To be awaited.
+func light_materials() -> String:
+	if _environment == null:
+		_environment = LobeEnvironment3D.new()
+		_environment.filter = FILTERS[filter]
+		_environment.panorama = panorama
+		tree.root.add_child(_environment)
+	if _environment.get_cubemap() == null and not await _environment.rebuild():
+		return _environment.get_rebuild_error()
+	return ""
+
+
+## The panorama's pyramid as materials of other kinds need it, made as [LobeEnvironment3D] makes
+## it; null on failure. [param used_filter] is a key of [constant FILTERS]. To be awaited.
+func light(used_filter: String) -> EnvironmentLight:
+	if _lights.has(used_filter):
+		return _lights[used_filter]
+	var environment := LobeEnvironment3D.new()
+	environment.filter = FILTERS[used_filter]
+	environment.panorama = panorama
+	var made: EnvironmentLight = null
+	if await environment.rebuild():
+		made = EnvironmentLight.new()
+		made.cubemap = environment.get_cubemap()
+		made.size = made.cubemap.get_width()
+		made.level_variance = Pyramid.LEVEL_VARIANCES[FILTERS[used_filter]]
+		made.is_even = used_filter == "gaussian"
+		_lights[used_filter] = made
+	environment.free()
+	return made
+
+
+## The panorama as a dual-paraboloid map, whose halves have about the texels of three faces of the
+## cube; null on failure. To be awaited.
+func dual_paraboloid_map() -> DualParaboloidMap:
+	if _map == null:
+		var side := 2 * Pyramid.automatic_size(panorama)
+		_map = await DualParaboloidMap.make(panorama, side, tree)
+	return _map

@@ -1,0 +1,121 @@
+extends ComparisonMethod
+## `fis<N>`: filtered importance sampling, Colbert and Křivánek 2007, "GPU-Based Importance
+## Sampling", GPU Gems 3, chapter 20; see fis.gdshaderinc. On 2 × 2 means as published, `fis<N>g`
+## on the project's own pyramid.
+
+const ComparisonSphere := preload("comparison_sphere.gd")
+const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
+const BRDFS: PackedStringArray = ["ward", "ward_bounded", "ggx"]
+
+var samples: int
+## Whether on the project's own pyramid.
+var on_own_pyramid := false
+
+var _light: EnvironmentLight
+var _filter := ""
+# Added to the level.
+var _bias := 0.0
+
+
+static func make(count: int, own_pyramid: bool) -> ComparisonMethod:
+	var method := new()
+	method.samples = count
+	method.on_own_pyramid = own_pyramid
+	return method
+
+
+func prepare(stage: ComparisonStage) -> String:
+	if brdf not in BRDFS:
+		return "method %s draws %s, not %s." % [name, ", ".join(BRDFS), brdf]
+	_filter = stage.filter if on_own_pyramid else "box"
+	_light = await stage.light(_filter)
+	if _light == null:
+		return "the renderer did not draw the pyramid."
+	_bias = stage.fis_bias + matching_bias(_light.level_variance)
+	return ""
+
+
+func make_sphere() -> MeshInstance3D:
+	return make_part(0, samples)
+
+
+## The mean over [param count] of the samples, from the one with the index [param first]: pictures
+## of parts add up to those of more samples than fit into one shader.
+func make_part(first: int, count: int) -> MeshInstance3D:
+	var defines: PackedStringArray = ["FIS_SAMPLES %d" % count, "FIS_" + brdf.to_upper()]
+	if alpha[0] == alpha[1]:
+		defines.append("FIS_ISOTROPIC")
+	if _light.is_even:
+		defines.append("FIS_ROUND_LEVELS")
+	var constants := PackedVector4Array()
+	for k in range(first, first + count):
+		constants.append(_ggx_constants(k) if brdf == "ggx" else _ward_constants(k))
+	return (
+		ComparisonSphere
+		. make(
+			"fis.gdshaderinc",
+			"fis_specular",
+			defines,
+			{
+				&"lobelight_environment": _light.cubemap,
+				&"fis_samples": constants,
+				&"fis_alpha": _widths(),
+				&"fis_level_scale": 2.0 * PI * alpha[0] * alpha[1] * _level_scale(),
+			}
+		)
+	)
+
+
+## One environment fetch a sample; their directions come from uniforms.
+func cost() -> Dictionary:
+	return {"fetches": samples, "probes": samples, "table_fetches": 0}
+
+
+func settings() -> Dictionary:
+	return {"pyramid": _filter, "face_size": _light.size, "level_bias": _bias}
+
+
+## Of a pyramid whose levels blur by [param level_variance], see [EnvironmentLight]: what makes the
+## published rule, which is for 2 × 2 means, blur as much as it does on those. Level l blurs by
+## (c + 1/6) 4^l of a texel's solid angle, 1/6 being the sampler's share.
+static func matching_bias(level_variance: float) -> float:
+	var box: float = ComparisonStage.Pyramid.LEVEL_VARIANCES[ComparisonStage.FILTERS["box"]]
+	return -0.5 * log((level_variance + 1.0 / 6.0) / (box + 1.0 / 6.0)) / log(2.0)
+
+
+## Point [param index] of [param count] of Hammersley's set, in the middle of its cell: the bits of
+## the index after the binary point, in reverse, and the fraction of the index. Taken in this order
+## for (radius, angle), 40 samples come about 1 dB closer than in the other; powers of two give the
+## same set in both.
+static func hammersley(index: int, count: int) -> Vector2:
+	var reversed := 0.0
+	var digit := 0.5
+	var bits := index
+	while bits > 0:
+		reversed += digit * (bits & 1)
+		digit *= 0.5
+		bits >>= 1
+	return Vector2(reversed + 0.5 / count, (index + 0.5) / count)
+
+
+func _widths() -> Vector2:
+	return Vector2(alpha[0], alpha[1])
+
+
+# 4^_bias / N over omega_p in the middle of a face.
+func _level_scale() -> float:
+	return pow(4.0, _bias) / samples * 0.25 * _light.size * _light.size
+
+
+func _ward_constants(index: int) -> Vector4:
+	var u := hammersley(index, samples)
+	var slope := sqrt(-log(1.0 - u.x)) * Vector2.from_angle(TAU * u.y) * _widths()
+	var h := Vector3(slope.x, slope.y, 1.0).normalized()
+	# e^(slope / alpha)^2 = 1 / (1 - u).
+	var solid_angle := 4.0 * PI * alpha[0] * alpha[1] * pow(h.z, 3.0) / (1.0 - u.x)
+	return Vector4(h.x, h.y, h.z, 0.5 * log(solid_angle * _level_scale()) / log(2.0))
+
+
+func _ggx_constants(index: int) -> Vector4:
+	var u := hammersley(index, samples)
+	return Vector4(cos(TAU * u.y), sin(TAU * u.y), 1.0 - u.x, 0.0)

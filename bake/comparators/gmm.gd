@@ -1,0 +1,32 @@
+extends ComparisonMethod
+## `gmm<N>`: this project's own, N lobes of a [LobeTable].
+
+var lobes: int
+var table: LobeTable
+
+
+static func make(count: int) -> ComparisonMethod:
+	var method := new()
+	method.lobes = count
+	return method
+
+
+func prepare(stage: ComparisonStage) -> String:
+	var recipe := {"brdf": brdf, "alpha": Array(alpha), "lobes": lobes}
+	var result := await NativeLibrary.run(
+		NativeLibrary.create(&"LobeBaker"), recipe, "baking %s" % name, stage.tree
+	)
+	if result.has("error"):
+		return result["error"]
+	table = LobeTable.from_baked(result)
+	return await stage.light_materials()
+
+
+func make_sphere() -> MeshInstance3D:
+	return SphereImpostor.make(table)
+
+
+## One environment fetch and one table fetch a lobe; the fetches are isotropic, so the sampler
+## probes once for each.
+func cost() -> Dictionary:
+	return {"fetches": lobes, "probes": lobes, "table_fetches": lobes}
