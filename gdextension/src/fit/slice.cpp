@@ -1,6 +1,8 @@
 #include "fit/slice.h"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace lobelight {
 
@@ -23,7 +25,7 @@ Slice sample_slice(const Brdf& brdf, const glm::dvec3& o, int nodes_per_axis, do
   slice.weights.reserve(slice.directions.capacity());
   const auto add = [&](double distance, double turn) {
     const auto sample = brdf.sample(o, {distance, turn});
-    if (!sample || !(sample->weight > 0.0)) return;
+    if (!sample || !is_usable(sample->direction, sample->weight)) return;
     slice.directions.push_back(sample->direction);
     slice.weights.push_back(sample->weight * node_weight);
     slice.albedo += slice.weights.back();
@@ -38,6 +40,35 @@ Slice sample_slice(const Brdf& brdf, const glm::dvec3& o, int nodes_per_axis, do
     add(distance, 1.0 - turn);
   }
   return slice;
+}
+
+bool is_usable(const glm::dvec3& direction, double weight) {
+  // Comparisons with NaN are false, and so is the last one with an infinite component.
+  return weight > 0.0 && std::isfinite(weight) &&
+         std::abs(glm::dot(direction, direction) - 1.0) <= 1e-6;
+}
+
+bool is_usable(const Slice& slice) {
+  if (slice.directions.size() != slice.weights.size() || !std::isfinite(slice.albedo)) return false;
+  for (std::size_t n = 0; n < slice.weights.size(); ++n) {
+    if (!is_usable(slice.directions[n], slice.weights[n])) return false;
+  }
+  return true;
+}
+
+Slice usable_nodes(const Slice& slice) {
+  Slice usable;
+  const std::size_t count = std::min(slice.directions.size(), slice.weights.size());
+  for (std::size_t n = 0; n < count; ++n) {
+    if (!is_usable(slice.directions[n], slice.weights[n])) continue;
+    usable.directions.push_back(slice.directions[n]);
+    usable.weights.push_back(slice.weights[n]);
+    usable.albedo += slice.weights[n];
+  }
+  if (!std::isfinite(usable.albedo)) {
+    throw std::invalid_argument("The weights of a slice add up to more than a double holds.");
+  }
+  return usable;
 }
 
 }  // namespace lobelight

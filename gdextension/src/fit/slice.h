@@ -22,4 +22,16 @@ struct Slice {
 Slice sample_slice(const Brdf& brdf, const glm::dvec3& o, int nodes_per_axis = 64,
                    double rotation = 0.0);
 
+// Whether a node can take part in a fit: its weight is finite and above 0, its direction finite and
+// of unit length within 1e-6. Measured data may hold anything; sample_slice(), initial_guess() and
+// run_em() all leave out the nodes that this refuses.
+bool is_usable(const glm::dvec3& direction, double weight);
+
+// Whether every node is usable and the albedo finite.
+bool is_usable(const Slice& slice);
+
+// The usable nodes, and their albedo. Throws std::invalid_argument where the weights add up to more
+// than a double holds.
+Slice usable_nodes(const Slice& slice);
+
 }  // namespace lobelight
