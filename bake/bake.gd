@@ -46,6 +46,13 @@ func _recipe() -> Dictionary:
 	for option: String in ["brdf", "method"]:
 		if _arguments.has(option):
 			recipe[option] = _arguments.text(option)
+	if _is_measured(recipe) and (recipe["brdf"] as String).is_relative_path():
+		# On the command line from where the user is, in a recipe from where the recipe is.
+		recipe["brdf"] = (
+			_arguments.path("brdf")
+			if _arguments.has("brdf")
+			else _arguments.path("recipe").get_base_dir().path_join(recipe["brdf"])
+		)
 	for option: String in ["lobes", "seed", "threads"]:
 		if _arguments.has(option):
 			recipe[option] = _arguments.integer(option, 0, -(1 << 31), (1 << 31) - 1)
@@ -53,9 +60,18 @@ func _recipe() -> Dictionary:
 		if _arguments.has(option):
 			recipe[option] = Array(_arguments.numbers(option, 2, PackedFloat64Array([0, 0])))
 	for key: String in ["brdf", "alpha", "lobes"]:
-		if key not in recipe:
+		# The widths of measurements are estimated.
+		if key not in recipe and not (key == "alpha" and _is_measured(recipe)):
 			_arguments.fail("--%s is missing." % key)
 	return recipe
+
+
+## True where the recipe's BRDF is a file: MERL's .binary, RGL's .bsdf, or anything with a folder.
+func _is_measured(recipe: Dictionary) -> bool:
+	var brdf: Variant = recipe.get("brdf")
+	if brdf is not String:
+		return false
+	return (brdf as String).get_extension() in ["binary", "bsdf"] or "/" in brdf or "\\" in brdf
 
 
 func _read_recipe(path: String) -> Dictionary:
@@ -103,6 +119,13 @@ func _bake(recipe: Dictionary, out: String) -> void:
 			AtomicFile.save_json(table.to_json_dictionary(), _arguments.path("export"))
 		)
 	var summary := _summary(result, out)
+	if result.has("clamped"):
+		print(
+			(
+				"%s: %d numbers negative or not finite; mirror images averaged, %.2f %% off their mean"
+				% [table.brdf, result["clamped"], 100.0 * (result["asymmetry"] as float)]
+			)
+		)
 	if _arguments.has("json"):
 		_arguments.fail_if(AtomicFile.save_json(summary, _arguments.path("json")))
 	if _arguments.error.is_empty():
@@ -126,7 +149,7 @@ func _bake(recipe: Dictionary, out: String) -> void:
 
 
 func _summary(result: Dictionary, out: String) -> Dictionary:
-	return {
+	var summary := {
 		"out": out,
 		"brdf": result["brdf"],
 		"alpha": LobeTable.plain_numbers(result["alpha"]),
@@ -139,6 +162,10 @@ func _summary(result: Dictionary, out: String) -> Dictionary:
 		"log_likelihood": Array(result["log_likelihood"]),
 		"peak_memory_mb": _peak_memory_mb(),
 	}
+	for key: String in ["clamped", "asymmetry"]:
+		if result.has(key):
+			summary[key] = result[key]
+	return summary
 
 
 ## The process's largest resident size, the engine's own 100 MB or so included; 0 where unknown.

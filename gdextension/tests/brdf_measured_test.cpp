@@ -209,10 +209,7 @@ TEST_CASE("make_brdf reads files of both formats") {
     recipe.reflectance = [&](const glm::dvec3& i, const glm::dvec3& o) {
       return glm::dvec3(model.evaluate(i, o));
     };
-    recipe.normals = [&](const glm::dvec3& m) { return ggx_normal_density(m, alpha); };
-    recipe.visible = [&](const glm::dvec3& m, const glm::dvec3& o) {
-      return ggx_normal_density(m, alpha) * std::max(0.0, glm::dot(m, o));
-    };
+    recipe.alpha = alpha;
     recipe.azimuths.clear();
     for (int p = 0; p <= 8; ++p) recipe.azimuths.push_back(-kPi + p * kPi / 8.0);
     for (int t = 0; t <= 8; ++t) recipe.elevations.push_back(0.5 * kPi * t / 8.0);

@@ -101,10 +101,7 @@ TEST_CASE("An RGL file of GGX gives GGX back") {
   recipe.reflectance = [&](const glm::dvec3& i, const glm::dvec3& o) {
     return glm::dvec3(1.0, 0.5, 0.25) * ggx.evaluate(i, o);
   };
-  recipe.normals = [&](const glm::dvec3& m) { return ggx_normal_density(m, alpha); };
-  recipe.visible = [&](const glm::dvec3& m, const glm::dvec3& o) {
-    return ggx_normal_density(m, alpha) * std::max(0.0, glm::dot(m, o));
-  };
+  recipe.alpha = alpha;
   for (int t = 0; t < 10; ++t) recipe.elevations.push_back(0.5 * kPi * t / 9.0);
   recipe.resolution = 48;
   const TemporaryFile file(".bsdf");

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <random>
 
+#include "brdf/ggx.h"
 #include "statistics.h"
 
 namespace lobelight::testing {
@@ -197,36 +198,52 @@ std::vector<char> rgl_file(const RglRecipe& recipe) {
   const auto point = [n](std::size_t row, std::size_t column) {
     return glm::dvec2(column, row) / static_cast<double>(n - 1);
   };
-  std::vector<float> ndf;
-  for (std::size_t row = 0; row < n; ++row) {
-    for (std::size_t column = 0; column < n; ++column) {
-      ndf.push_back(static_cast<float>(recipe.normals(normal_at(point(row, column), 0.0))));
+  // Two functions of a direction as squares, and what a reader finds for them between the values,
+  // so that this interpolation cancels.
+  using Square = std::vector<float>;
+  const auto square_of = [&](const std::function<double(const glm::dvec3&)>& function) {
+    Square values;
+    for (std::size_t row = 0; row < n; ++row) {
+      for (std::size_t column = 0; column < n; ++column) {
+        // Not quite the horizon, where there is no projected area to divide by.
+        const glm::dvec2 at = point(row, column);
+        values.push_back(
+            static_cast<float>(function(normal_at({std::min(at.x, 0.9999), at.y}, 0.0))));
+      }
     }
-  }
-  // What a reader finds for D between its nodes, so that this interpolation cancels.
-  const auto stored_ndf = [&](const glm::dvec2& at) {
+    return values;
+  };
+  const auto value_at = [&](const Square& square, const glm::dvec2& at) {
     const glm::dvec2 scaled = at * static_cast<double>(n - 1);
     const auto column = std::min(static_cast<std::size_t>(scaled.x), n - 2);
     const auto row = std::min(static_cast<std::size_t>(scaled.y), n - 2);
     const glm::dvec2 t = scaled - glm::dvec2(column, row);
     const auto d = [&](std::size_t r, std::size_t c) {
-      return static_cast<double>(ndf[r * n + c]);
+      return static_cast<double>(square[r * n + c]);
     };
     return glm::mix(glm::mix(d(row, column), d(row, column + 1), t.x),
                     glm::mix(d(row + 1, column), d(row + 1, column + 1), t.x), t.y);
   };
+  const Square ndf =
+      square_of([&](const glm::dvec3& m) { return ggx_normal_density(m, recipe.alpha); });
+  // σ(o) = ∫ D(m) max(0, m·o) dm = o_z / G1(o)
+  const Square sigma =
+      square_of([&](const glm::dvec3& o) { return o.z * (1.0 + ggx_lambda(o, recipe.alpha)); });
 
   std::vector<float> vndf;
   std::vector<float> rgb;
   for (const double azimuth : recipe.azimuths) {
     for (const double elevation : recipe.elevations) {
       const glm::dvec3 o = from_angles(elevation, azimuth);
+      const double area =
+          value_at(sigma, {std::sqrt(elevation / (0.5 * kPi)), (azimuth + kPi) / (2.0 * kPi)});
       std::vector<float> density;
       for (std::size_t row = 0; row < n; ++row) {
         for (std::size_t column = 0; column < n; ++column) {
           const glm::dvec2 at = point(row, column);
           const glm::dvec3 m = normal_at(at, isotropic ? azimuth : 0.0);
-          density.push_back(static_cast<float>(recipe.visible(m, o) * solid_angle(at)));
+          density.push_back(static_cast<float>(ggx_normal_density(m, recipe.alpha) *
+                                               std::max(0.0, glm::dot(m, o)) * solid_angle(at)));
         }
       }
       const Warp warp(density, n);
@@ -243,7 +260,7 @@ std::vector<char> rgl_file(const RglRecipe& recipe) {
           const glm::dvec3 i = 2.0 * glm::dot(o, m) * m - o;
           glm::dvec3 value(0.0);
           if (i.z > 0.0 && glm::dot(o, m) > 0.0) {
-            value = recipe.reflectance(i, o) * i.z * 4.0 / stored_ndf(at);
+            value = recipe.reflectance(i, o) * i.z * 4.0 * area / value_at(ndf, at);
           }
           for (std::size_t channel = 0; channel < 3; ++channel) {
             rgb[first + channel * n * n + row * n + column] =
@@ -259,7 +276,7 @@ std::vector<char> rgl_file(const RglRecipe& recipe) {
   writer.add_bytes("description", "synthesised");
   writer.add("theta_i", {elevations.size()}, elevations);
   writer.add("phi_i", {azimuths.size()}, azimuths);
-  writer.add("sigma", {2, 2}, {1.0F, 1.0F, 1.0F, 1.0F});
+  writer.add("sigma", {n, n}, sigma);
   writer.add("ndf", {n, n}, ndf);
   writer.add("vndf", {azimuths.size(), elevations.size(), n, n}, vndf);
   writer.add("rgb", {azimuths.size(), elevations.size(), 3, n, n}, rgb);

@@ -55,13 +55,11 @@ class TensorWriter {
   std::vector<Field> fields_;
 };
 
-// An RGL file of a reflectance. Slices have `resolution`² values. Its warp is that of the density
-// `visible(m, o)` of normals over solid angle, up to a factor; `normals(m)` is what the reflectance
-// is divided by, up to σ, which is 1.
+// An RGL file of a reflectance, prepared as the paper does for a surface of GGX normals. Squares
+// have `resolution`² values.
 struct RglRecipe {
   Reflectance reflectance;
-  std::function<double(const glm::dvec3& m)> normals;
-  std::function<double(const glm::dvec3& m, const glm::dvec3& o)> visible;
+  glm::dvec2 alpha;                   // of the normals
   std::vector<double> azimuths{0.0};  // of o, radians; one: isotropic
   std::vector<double> elevations;
   std::size_t resolution = 32;

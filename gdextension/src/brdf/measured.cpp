@@ -16,16 +16,15 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Views with tables of samples: those of the default lobe tables, whose slices are then drawn from
-// tables of their own and not from blends. Half-vectors: √θ and the azimuth, finer for anisotropic
-// materials, whose ridges are narrow in azimuth. The number of azimuths is a multiple of four plus
-// one, so that both mirrors take nodes to nodes.
-constexpr int kElevations = 16;
-constexpr int kAzimuths = 8;
+// Views with tables of samples; between them, tables are blended. Half-vectors: √θ and the azimuth,
+// finer for anisotropic materials, whose ridges are narrow in azimuth. The number of azimuths is a
+// multiple of four plus one, so that both mirrors take nodes to nodes.
+constexpr int kElevations = 12;
+constexpr int kAzimuths = 5;
 constexpr double kLastElevation = 89.4 * kPi / 180.0;
-constexpr std::size_t kHalfVectorColumns = 97;
+constexpr std::size_t kHalfVectorColumns = 65;
 constexpr std::size_t kHalfVectorRows = 65;
-constexpr std::size_t kAnisotropicRows = 193;
+constexpr std::size_t kAnisotropicRows = 129;
 
 // Share of the mean density that is added everywhere: what the tables miss is drawn at times.
 constexpr double kFloor = 0.02;

@@ -57,8 +57,10 @@ glm::dvec3 Rgl::reflected(const glm::dvec3& i_given, const glm::dvec3& o_given) 
   glm::dvec3 o = o_given;
   if (tables_.repetitions >= 2) {
     // Half a circle of nodes is that with y < 0, a quarter that with x, y < 0.
-    const double y_sign = o.y > 0.0 ? -1.0 : 1.0;
-    const double x_sign = tables_.repetitions == 4 ? (o.x > 0.0 ? -1.0 : 1.0) : y_sign;
+    // Zeros become negative too, so that azimuths on the x axis come out as −π or −0.
+    const auto negative = [](double value) { return std::signbit(value) ? 1.0 : -1.0; };
+    const double y_sign = negative(o.y);
+    const double x_sign = tables_.repetitions == 4 ? negative(o.x) : y_sign;
     const glm::dvec3 signs(x_sign, y_sign, 1.0);
     i *= signs;
     o *= signs;

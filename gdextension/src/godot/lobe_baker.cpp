@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "brdf/measured.h"
 #include "fit/slice.h"
 #include "fit/table_fitter.h"
 #include "godot/convert.h"
@@ -24,6 +25,10 @@ Recipe read_recipe(const Dictionary& values) {
                         {"brdf", "alpha", "lobes", "views", "method", "seed", "threads"});
   Recipe recipe;
   recipe.brdf = request.text("brdf", recipe.brdf);
+  if (is_measured_file(recipe.brdf)) {
+    recipe.brdf = file_system_path(to_godot(recipe.brdf));
+    recipe.alpha = glm::dvec2(0.0);
+  }
   recipe.alpha = request.widths("alpha", recipe.alpha);
   recipe.lobes = request.integer("lobes", recipe.lobes);
   recipe.views = request.counts("views", recipe.views);
@@ -45,9 +50,10 @@ PackedByteArray texels(const LobeTable& table) {
 
 Dictionary bake_recipe(const Recipe& recipe, Progress& progress) {
   FitReport report;
-  const LobeTable table = fit_table(recipe, progress, &report);
+  const std::unique_ptr<Brdf> brdf = make_brdf(recipe.brdf, recipe.alpha);
+  const LobeTable table = fit_table(*brdf, recipe, progress, &report);
   Dictionary result;
-  result["brdf"] = to_godot(recipe.brdf);
+  result["brdf"] = to_godot(brdf->name());
   result["alpha"] = to_godot(table.alpha());
   result["lobes"] = table.lobes();
   result["views"] = to_godot(table.views());
@@ -59,6 +65,10 @@ Dictionary bake_recipe(const Recipe& recipe, Progress& progress) {
   result["seconds"] = report.seconds;
   result["iterations"] = to_godot(report.iterations);
   result["log_likelihood"] = to_godot(report.log_likelihood);
+  if (const auto* measured = dynamic_cast<const MeasuredBrdf*>(brdf.get())) {
+    result["clamped"] = static_cast<std::int64_t>(measured->clamped());
+    result["asymmetry"] = measured->asymmetry();
+  }
   return result;
 }
 
