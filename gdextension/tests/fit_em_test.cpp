@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "fit/em.h"
@@ -179,6 +180,45 @@ TEST_CASE("Nodes of weight zero count for nothing") {
     CHECK(with.mixture[k].gaussian.kappa ==
           doctest::Approx(without.mixture[k].gaussian.kappa).epsilon(1e-9));
   }
+}
+
+TEST_CASE("Nodes that are no numbers count for nothing") {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Slice slice = sample_slice(*make_brdf("ward", {0.1, 0.3}), {0.6, 0.0, 0.8}, 24);
+  const Mixture start = initial_guess(slice, 4);
+  const EmResult without = run_em(slice, start);
+  const glm::dvec3 up(0.0, 0.0, 1.0);
+  const std::vector<glm::dvec3> directions{up, up, up, {kNan, 0.0, 1.0}, {kInfinity, 0.0, 0.0}};
+  const std::vector<double> weights{kNan, kInfinity, -1.0, 1.0, 1.0};
+  for (std::size_t n = 0; n < directions.size(); ++n) {
+    slice.directions.insert(slice.directions.begin(), directions[n]);
+    slice.weights.insert(slice.weights.begin(), weights[n]);
+    slice.albedo += weights[n];
+  }
+  REQUIRE(std::isnan(slice.albedo));
+  const Mixture guess = initial_guess(slice, 4);
+  const EmResult with = run_em(slice, start);
+  for (std::size_t k = 0; k < 4; ++k) {
+    CHECK(guess[k].weight == doctest::Approx(start[k].weight).epsilon(1e-12));
+    CHECK(guess[k].gaussian.mean == start[k].gaussian.mean);
+    CHECK(with.mixture[k].weight == doctest::Approx(without.mixture[k].weight).epsilon(1e-12));
+    CHECK(with.mixture[k].gaussian.mean == without.mixture[k].gaussian.mean);
+  }
+}
+
+TEST_CASE("Starts without direction and sums without bound are refused") {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const glm::dvec3 up(0.0, 0.0, 1.0);
+  const Slice slice{{up}, {1.0}, 1.0};
+  for (const glm::dvec3& mean : {glm::dvec3(0.0), glm::dvec3(kNan, 0.0, 1.0), 2.0 * up}) {
+    CHECK_THROWS_WITH_AS(run_em(slice, {{1.0, {mean, 1.0}}}),
+                         "run_em needs a start whose means are unit vectors.",
+                         std::invalid_argument);
+  }
+  const Slice huge{{up, up}, {1e308, 1e308}, std::numeric_limits<double>::infinity()};
+  CHECK_THROWS_AS(run_em(huge, {{1.0, {up, 1.0}}}), std::invalid_argument);
+  CHECK_THROWS_AS(initial_guess(huge, 1), std::invalid_argument);
 }
 
 TEST_CASE("Tied lobes stay mirror images to the last bit, and their likelihood never falls") {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <tuple>
 
 #include "brdf_oracle.h"
@@ -114,6 +116,75 @@ TEST_CASE("A slice integrates other functions too") {
     own += slice.weights[n] * slice.directions[n].z;
   }
   CHECK(own == doctest::Approx(truth).epsilon(2e-3));
+}
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST_CASE("Nodes that are no numbers are not usable") {
+  const glm::dvec3 up(0.0, 0.0, 1.0);
+  CHECK(is_usable(up, 1.0));
+  CHECK(is_usable(glm::normalize(glm::dvec3(1.0, -2.0, 0.3)), 5e-324));
+  for (const double weight : {0.0, -0.0, -1.0, kNan, kInfinity, -kInfinity}) {
+    CAPTURE(weight);
+    CHECK_FALSE(is_usable(up, weight));
+  }
+  for (const double component : {kNan, kInfinity, -kInfinity, 1e200, 1e-5, 2.0}) {
+    CAPTURE(component);
+    CHECK(is_usable({component, 0.0, 1.0}, 1.0) == (component == 1e-5));
+    CHECK_FALSE(is_usable({0.0, component, 0.0}, 1.0));
+  }
+  CHECK_FALSE(is_usable(glm::dvec3(0.0), 1.0));
+}
+
+TEST_CASE("What is not usable is left out, and the albedo is that of the rest") {
+  const glm::dvec3 up(0.0, 0.0, 1.0);
+  const glm::dvec3 side(1.0, 0.0, 0.0);
+  const Slice dirty{
+      {up, side, {kNan, 0.0, 1.0}, up, side}, {0.25, kNan, 1.0, kInfinity, 0.5}, kNan};
+  CHECK_FALSE(is_usable(dirty));
+  const Slice clean = usable_nodes(dirty);
+  CHECK(is_usable(clean));
+  CHECK(clean.directions == std::vector<glm::dvec3>{up, side});
+  CHECK(clean.weights == std::vector<double>{0.25, 0.5});
+  CHECK(clean.albedo == 0.75);
+
+  CHECK_FALSE(is_usable(Slice{{up, side}, {1.0}, 1.0}));
+  CHECK(usable_nodes(Slice{{up, side}, {1.0}, 1.0}).directions.size() == 1);
+  CHECK(usable_nodes(Slice{{up}, {kNan}, kNan}).albedo == 0.0);
+  CHECK(is_usable(Slice{}));
+  CHECK_THROWS_AS(usable_nodes({{up, side}, {1e308, 1e308}, kInfinity}), std::invalid_argument);
+}
+
+// As a file of measured data could be: some samples are not numbers.
+class Faulty final : public Brdf {
+ public:
+  explicit Faulty(BrdfSample fault) : Brdf({0.2, 0.2}), fault_(fault) {}
+  double evaluate(const glm::dvec3&, const glm::dvec3&) const override { return 0.0; }
+  std::optional<BrdfSample> sample(const glm::dvec3& o, const glm::dvec2& u) const override {
+    if (u.x > 0.5) return fault_;
+    return make_brdf("ward", {0.2, 0.2})->sample(o, u);
+  }
+  double pdf(const glm::dvec3&, const glm::dvec3&) const override { return 0.0; }
+  std::string_view name() const override { return "faulty"; }
+
+ private:
+  BrdfSample fault_;
+};
+
+TEST_CASE("Samples that are no numbers do not reach a slice") {
+  const glm::dvec3 up(0.0, 0.0, 1.0);
+  const glm::dvec3 o(0.6, 0.0, 0.8);
+  const Slice half = sample_slice(Faulty({up, 0.0, 1.0}), o, 16);
+  REQUIRE(half.weights.size() > 50);
+  for (const BrdfSample& fault :
+       {BrdfSample{up, kNan, 1.0}, BrdfSample{up, kInfinity, 1.0}, BrdfSample{up, -1.0, 1.0},
+        BrdfSample{{kNan, 0.0, 1.0}, 1.0, 1.0}, BrdfSample{{0.0, kInfinity, 1.0}, 1.0, 1.0}}) {
+    const Slice slice = sample_slice(Faulty(fault), o, 16);
+    CHECK(is_usable(slice));
+    CHECK(slice.weights == half.weights);
+    CHECK(slice.albedo == half.albedo);
+  }
 }
 
 }  // namespace

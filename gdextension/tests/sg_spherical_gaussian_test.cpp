@@ -80,7 +80,7 @@ TEST_CASE("Coverage agrees with mpmath and inverts the integral") {
     CAPTURE(kappa);
     CHECK(coverage_one_minus_cosine(kappa, 0.0) == 0.0);
     const double all = coverage_one_minus_cosine(kappa, 1.0);
-    CHECK(all == doctest::Approx(2.0).epsilon(1e-9));
+    CHECK(all == doctest::Approx(2.0).epsilon(1e-14));
     double before = 0.0;
     for (double coverage = 0.05; coverage < 1.0; coverage += 0.05) {
       const double own = coverage_one_minus_cosine(kappa, coverage);
@@ -88,6 +88,28 @@ TEST_CASE("Coverage agrees with mpmath and inverts the integral") {
       CHECK(own <= 2.0);
       before = own;
     }
+  }
+}
+
+TEST_CASE("Coverage keeps its digits up to the whole sphere") {
+  // 1 − coverage = 2^-53 and 2^-50: the share beyond the cap is (1 − coverage) + coverage e^{−2κ}.
+  for (const double kappa : {3.0, 10.0, 17.0, 18.0, 20.0, 1e3, 1e8}) {
+    for (const double beyond : {0x1p-53, 0x1p-50, 1e-9}) {
+      CAPTURE(kappa);
+      CAPTURE(beyond);
+      const double coverage = 1.0 - beyond;
+      const double rest = (1.0 - coverage) + coverage * std::exp(-2.0 * kappa);
+      CHECK(coverage_one_minus_cosine(kappa, coverage) ==
+            doctest::Approx(-std::log(rest) / kappa).epsilon(1e-14));
+    }
+    CHECK(coverage_one_minus_cosine(kappa, 1.0) == doctest::Approx(2.0).epsilon(1e-15));
+  }
+  // The samples farthest from the mean are those of the density, not of its rounding.
+  double before = 0.0;
+  for (double beyond = 1e-13; beyond > 1.2e-16; beyond *= 0.5) {
+    const double t = coverage_one_minus_cosine(20.0, 1.0 - beyond);
+    CHECK(t > before);
+    before = t;
   }
 }
 

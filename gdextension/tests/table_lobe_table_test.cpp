@@ -141,6 +141,27 @@ TEST_CASE("Views beyond the grid are clamped") {
   }
 }
 
+TEST_CASE("Views below the last elevation are that view, as the shader has them") {
+  for (const glm::ivec2& views : {glm::ivec2(5, 1), glm::ivec2(5, 4)}) {
+    const LobeTable table = arbitrary_table(views);
+    for (const double azimuth : {0.0, 0.4, 2.0, -1.2}) {
+      const Mixture last = table.interpolate(direction(LobeTable::kMaxElevation, azimuth));
+      for (const double degrees : {89.7, 90.0, 100.0, 150.0}) {
+        const glm::dvec3 below = direction(degrees * kPi / 180.0, azimuth);
+        const glm::dvec3 lifted =
+            glm::normalize(glm::dvec3(below.x, below.y, std::cos(LobeTable::kMaxElevation)));
+        CAPTURE(degrees);
+        check_same(table.interpolate(below), table.interpolate(lifted), 1e-5);
+        if (degrees <= 90.0) check_same(table.interpolate(below), last, 2e-2);
+      }
+    }
+    for (const Lobe& lobe : table.interpolate({0.0, 0.0, -1.0})) {
+      CHECK(std::isfinite(lobe.gaussian.kappa));
+      CHECK(glm::length(lobe.gaussian.mean) == doctest::Approx(1.0));
+    }
+  }
+}
+
 TEST_CASE("Sharpness is clamped to what is stored") {
   LobeTable table({0.1, 0.1}, 3, {2, 1});
   const glm::dvec3 up(0.0, 0.0, 1.0);

@@ -68,6 +68,7 @@ struct Sums {
 
 Mixture initial_guess(const Slice& slice, int lobes) {
   if (lobes < 1) throw std::invalid_argument("initial_guess needs at least one lobe.");
+  if (!is_usable(slice)) return initial_guess(usable_nodes(slice), lobes);
   const std::size_t count = slice.directions.size();
   const auto set_count = static_cast<std::size_t>(lobes);
   if (count == 0 || !(slice.albedo > 0.0)) return Mixture(set_count);

@@ -45,8 +45,14 @@ double density(const SphericalGaussian& gaussian, const glm::dvec3& direction) {
 double coverage_one_minus_cosine(double kappa, double coverage) {
   // Mass within θ: (1 − e^{−κ(1 − cos θ)}) / (1 − e^{−2κ}); solved for 1 − cos θ.
   if (!(kappa > std::numeric_limits<double>::min())) return 2.0 * coverage;
-  // Close to full coverage e^{−2κ} drowns in the rounding of 1: the whole sphere is the bound.
-  return std::fmin(2.0, -std::log1p(coverage * std::expm1(-2.0 * kappa)) / kappa);
+  // What lies beyond θ, e^{−κ(1 − cos θ)} = 1 − m with m = coverage (1 − e^{−2κ}), as the sum of
+  // two positive numbers where it is small: close to full coverage 1 − m would be nothing but
+  // rounding.
+  const double m = -coverage * std::expm1(-2.0 * kappa);
+  const double log_rest =
+      m < 0.5 ? std::log1p(-m) : std::log((1.0 - coverage) + coverage * std::exp(-2.0 * kappa));
+  // Full coverage of a sharp lobe has e^{−2κ} = 0: the whole sphere is the bound.
+  return std::fmin(2.0, -log_rest / kappa);
 }
 
 double coverage_solid_angle(double kappa, double coverage) {

@@ -19,8 +19,8 @@ HalfVectorLobe to_half_vector(const SphericalGaussian& gaussian, const glm::dvec
 
 SphericalGaussian from_half_vector(const HalfVectorLobe& lobe, const glm::dvec3& o) {
   const glm::dvec3 h = glm::normalize(glm::dvec3(lobe.slope, 1.0));
-  const double o_dot_h = glm::dot(o, h);
-  return {glm::normalize(2.0 * o_dot_h * h - o), lobe.sharpness / std::max(o_dot_h, kMinODotH)};
+  const double o_dot_h = std::max(glm::dot(o, h), kMinODotH);
+  return {glm::normalize(2.0 * o_dot_h * h - o), lobe.sharpness / o_dot_h};
 }
 
 }  // namespace lobelight

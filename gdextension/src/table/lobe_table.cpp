@@ -14,6 +14,9 @@ namespace {
 constexpr double kLargestHalf = 65504.0;
 constexpr double kHalfPi = 1.57079632679489661923;
 
+// cos(LobeTable::kMaxElevation)
+constexpr double kLeastCosine = 0.0104717841162458;
+
 double clamp_log2_kappa(double log2_kappa) {
   // A sharpness of 0 has the logarithm −∞, which the bound takes.
   return std::clamp(log2_kappa, LobeTable::kMinLog2Kappa, LobeTable::kMaxLog2Kappa);
@@ -82,7 +85,9 @@ void LobeTable::set_mixture_at_view(int t, int p, const Mixture& mixture) {
   }
 }
 
-Mixture LobeTable::interpolate(const glm::dvec3& o) const {
+Mixture LobeTable::interpolate(const glm::dvec3& direction) const {
+  const glm::dvec3 o =
+      glm::normalize(glm::dvec3(direction.x, direction.y, std::max(direction.z, kLeastCosine)));
   const double sine = std::hypot(o.x, o.y);
   const Cell t = locate(std::atan2(sine, o.z) / kMaxElevation * (views_.x - 1), views_.x);
 

@@ -44,11 +44,11 @@ class LobeTable {
   Mixture mixture_at_view(int t, int p) const;
   void set_mixture_at_view(int t, int p, const Mixture& mixture);
 
-  // The lobes for any unit vector `o`, as the shader finds them: anisotropic tables fold o into the
+  // The lobes for any unit vector o, as the shader finds them: anisotropic tables fold o into the
   // first quadrant of azimuth and mirror the slopes back, isotropic ones are read in the frame
-  // whose x axis is o's projection; entries are interpolated bilinearly, views beyond the grid are
-  // clamped.
-  Mixture interpolate(const glm::dvec3& o) const;
+  // whose x axis is o's projection; entries are interpolated bilinearly. A view beyond the last
+  // elevation, or below the horizon, is the view of the last elevation and (almost) its azimuth.
+  Mixture interpolate(const glm::dvec3& direction) const;
 
   // Texture: width T, height lobes · P, row k · P + p, column t; four half floats a texel.
   int width() const { return views_.x; }
