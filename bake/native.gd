@@ -34,7 +34,10 @@ static func run(
 		return {"error": worker.call("get_error")}
 	var line := ProgressLine.new(label)
 	while worker.call("is_running"):
-		line.show(worker.call("get_progress"))
+		# Before anything is done there may still be nothing but one sentence to say: a bad file.
+		var progress: float = worker.call("get_progress")
+		if progress > 0.0:
+			line.show(progress)
 		await tree.create_timer(0.05).timeout
 	var failure: String = worker.call("get_error")
 	if not failure.is_empty():

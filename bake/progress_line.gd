@@ -1,7 +1,8 @@
 class_name ProgressLine
 extends RefCounted
 ## Shows how far a long step is: one line that is rewritten on a terminal, a line every quarter
-## elsewhere. Everything goes to standard error, so that a command's output stays clean.
+## elsewhere. Everything goes to standard error, so that a command's output stays clean. Nothing is
+## written before the first [method show].
 
 var _label: String
 var _started := Time.get_ticks_msec()
@@ -11,7 +12,6 @@ var _last_shown := -1
 
 func _init(label: String) -> void:
 	_label = label
-	show(0.0)
 
 
 ## [param fraction] is 0 to 1.

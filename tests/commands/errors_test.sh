@@ -74,6 +74,20 @@ bake_refuses "an unknown option" "--colour" "${good_bake[@]}" --alpha 0.1,0.1 --
 bake_refuses "an option without a value" "--alpha" "${good_bake[@]}" --alpha
 bake_refuses "a missing recipe" "no_recipe.json" --recipe no_recipe.json --out table.res
 
+echo "This is text, not a file of measurements." >"$work/text.binary"
+echo "This is text, not a file of measurements." >"$work/text.bsdf"
+: >"$work/empty.binary"
+printf 'Z\0\0\0Z\0\0\0\264\0\0\0and no numbers' >"$work/cut.binary"
+printf 'tensor_file\0\1\0\377\377\377\377' >"$work/greedy.bsdf"
+measured=(--lobes 4 --out table.res)
+bake_refuses "measurements that do not exist" "nowhere.binary" "${measured[@]}" --brdf nowhere.binary
+bake_refuses "text in a .binary" "text.binary" "${measured[@]}" --brdf "$work/text.binary"
+bake_refuses "text in a .bsdf" "text.bsdf" "${measured[@]}" --brdf "$work/text.bsdf"
+bake_refuses "an empty .binary" "empty.binary" "${measured[@]}" --brdf "$work/empty.binary"
+bake_refuses "a .binary that is cut off" "cut.binary" "${measured[@]}" --brdf "$work/cut.binary"
+bake_refuses "a .bsdf of four billion fields" "4294967295" "${measured[@]}" --brdf "$work/greedy.bsdf"
+bake_refuses "a folder for measurements" "is a folder" "${measured[@]}" --brdf "$work/"
+
 good_compare=(--brdf ward --alpha "0.1,0.1" --size 16 --out pictures)
 echo "This is text, not a picture." >"$work/text.exr"
 echo "This is text, not a picture." >"$work/text.hdr"

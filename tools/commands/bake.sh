@@ -5,7 +5,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 usage() {
   cat <<USAGE
 usage: ./dev bake --brdf ward|ward_bounded|ggx --alpha AX,AY --lobes N --out X.res [OPTIONS]
+       ./dev bake --brdf FILE.binary|FILE_rgb.bsdf --lobes N --out X.res [OPTIONS]
 
+--brdf FILE          measurements, MERL's or RGL's; --alpha is then estimated, unless it is given
 --recipe FILE.json   brdf, alpha, lobes, views, method, seed and threads; options go before it
 --views T,P          elevations and azimuths of the view (default 16,1 isotropic, 16,8 anisotropic)
 --method M           continuation (default) or independent
