@@ -17,48 +17,11 @@
 #endif
 
 #include "fit/table_fitter.h"
+#include "table_errors.h"
 
 namespace {
 
 using namespace lobelight;
-
-constexpr double kHalfPi = 1.57079632679489661923;
-
-// ∫ |m − f| / ∫ f for a mixture m scaled to the slice's mass: 2 ∫ max(0, f − m), which needs nodes
-// only where f is.
-double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture) {
-  const Slice slice = sample_slice(brdf, o, 48, 0.5);
-  const double scale = slice.albedo / total_weight(mixture);
-  double sum = 0.0;
-  for (std::size_t n = 0; n < slice.weights.size(); ++n) {
-    const glm::dvec3& i = slice.directions[n];
-    const double value = brdf.evaluate(i, o) * i.z;
-    sum += slice.weights[n] * std::max(0.0, 1.0 - scale * evaluate(mixture, i) / value);
-  }
-  return 2.0 * sum / slice.albedo;
-}
-
-struct Errors {
-  double sum = 0.0;
-  double worst = 0.0;
-  int count = 0;
-
-  void add(double error) {
-    sum += error;
-    worst = std::max(worst, error);
-    ++count;
-  }
-  double mean_per_cent() const { return 100.0 * sum / count; }
-  double worst_per_cent() const { return 100.0 * worst; }
-};
-
-// View (t, p) of the table's grid for real t and p.
-glm::dvec3 view_at(const LobeTable& table, double t, double p) {
-  const double elevation = LobeTable::kMaxElevation * t / (table.views().x - 1);
-  const double azimuth = table.is_isotropic() ? 0.0 : kHalfPi * p / (table.views().y - 1);
-  return {std::sin(elevation) * std::cos(azimuth), std::sin(elevation) * std::sin(azimuth),
-          std::cos(elevation)};
-}
 
 // Peak resident memory of this process so far in MiB, 0 where it cannot be asked for.
 double peak_memory() {
@@ -91,18 +54,8 @@ void measure(const Recipe& recipe, bool keep_symmetry, const char* label) {
   const double processor = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   const auto brdf = make_brdf(recipe.brdf, recipe.alpha);
 
-  Errors at;
-  Errors between;
+  const TableErrors errors = table_errors(table, *brdf, recipe.method == FitMethod::independent);
   const glm::ivec2 views = table.views();
-  for (int p = 0; p < views.y; ++p) {
-    for (int t = 0; t < views.x; ++t) {
-      at.add(l1_error(*brdf, table.view(t, p), table.mixture_at_view(t, p)));
-      if (t == views.x - 1 || (p == views.y - 1 && p > 0)) continue;
-      const glm::dvec3 o = view_at(table, t + 0.5, p + 0.5);
-      const bool nearest = recipe.method == FitMethod::independent;
-      between.add(l1_error(*brdf, o, table.interpolate(nearest ? view_at(table, t, p) : o)));
-    }
-  }
   std::printf(
       "%-5s %-12s %2d %3dx%-3d %-14s %7.2f %7.2f %6.0f %9.5f %7.2f %7.2f %7.2f %7.2f %6.1f\n",
       recipe.brdf.c_str(),
@@ -110,8 +63,9 @@ void measure(const Recipe& recipe, bool keep_symmetry, const char* label) {
        std::to_string(recipe.alpha.y).substr(0, 4))
           .c_str(),
       recipe.lobes, views.x, views.y, label, report.seconds, processor, mean(report.iterations),
-      mean(report.log_likelihood), at.mean_per_cent(), at.worst_per_cent(), between.mean_per_cent(),
-      between.worst_per_cent(), peak_memory());
+      mean(report.log_likelihood), errors.at_views.mean_per_cent(),
+      errors.at_views.worst_per_cent(), errors.between_views.mean_per_cent(),
+      errors.between_views.worst_per_cent(), peak_memory());
   std::fflush(stdout);
 }
 

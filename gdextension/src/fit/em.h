@@ -14,7 +14,7 @@
 // no use. It stops by `tolerance` or at `max_iterations`; the likelihood never falls on the way.
 // The result is the same to the last bit for any thread count and any width of SIMD registers.
 //
-// Memory for N nodes and K lobes, beside the slice: 32 (N + 63) + 2 KiB · (K + 1) bytes.
+// fit/memory.h bounds the memory.
 
 #include <vector>
 

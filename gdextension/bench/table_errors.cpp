@@ -1,0 +1,52 @@
+#include "table_errors.h"
+
+#include <cmath>
+
+#include "fit/slice.h"
+
+namespace lobelight {
+
+namespace {
+
+constexpr double kHalfPi = 1.57079632679489661923;
+
+// ∫ |m − f| / ∫ f for a mixture m scaled to the slice's mass: 2 ∫ max(0, f − m), which needs nodes
+// only where f is.
+double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture) {
+  const Slice slice = sample_slice(brdf, o, 48, 0.5);
+  const double scale = slice.albedo / total_weight(mixture);
+  double sum = 0.0;
+  for (std::size_t n = 0; n < slice.weights.size(); ++n) {
+    const glm::dvec3& i = slice.directions[n];
+    const double value = brdf.evaluate(i, o) * i.z;
+    sum += slice.weights[n] * std::max(0.0, 1.0 - scale * evaluate(mixture, i) / value);
+  }
+  return 2.0 * sum / slice.albedo;
+}
+
+// View (t, p) of the table's grid for real t and p.
+glm::dvec3 view_at(const LobeTable& table, double t, double p) {
+  const double elevation = LobeTable::kMaxElevation * t / (table.views().x - 1);
+  const double azimuth = table.is_isotropic() ? 0.0 : kHalfPi * p / (table.views().y - 1);
+  return {std::sin(elevation) * std::cos(azimuth), std::sin(elevation) * std::sin(azimuth),
+          std::cos(elevation)};
+}
+
+}  // namespace
+
+TableErrors table_errors(const LobeTable& table, const Brdf& brdf, bool nearest) {
+  TableErrors errors;
+  const glm::ivec2 views = table.views();
+  for (int p = 0; p < views.y; ++p) {
+    for (int t = 0; t < views.x; ++t) {
+      errors.at_views.add(l1_error(brdf, table.view(t, p), table.mixture_at_view(t, p)));
+      if (t == views.x - 1 || (p == views.y - 1 && p > 0)) continue;
+      const glm::dvec3 o = view_at(table, t + 0.5, p + 0.5);
+      errors.between_views.add(
+          l1_error(brdf, o, table.interpolate(nearest ? view_at(table, t, p) : o)));
+    }
+  }
+  return errors;
+}
+
+}  // namespace lobelight

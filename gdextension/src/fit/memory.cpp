@@ -1,0 +1,22 @@
+#include "fit/memory.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+
+namespace lobelight {
+
+std::size_t fit_memory_bound(const Recipe& recipe, const FitOptions& options) {
+  const auto count = [](int value) { return static_cast<std::size_t>(std::max(value, 0)); };
+  const glm::ivec2 grid = resolve_views(recipe);
+  const std::size_t views = count(grid.x) * count(grid.y);
+  const std::size_t lobes = count(recipe.lobes);
+  const std::size_t axis = (count(options.nodes_per_axis) + 3) / 4 * 4;
+  const std::size_t nodes = axis * axis;
+  const std::size_t iterations = count(options.em.max_iterations);
+  const std::size_t threads = std::min(views, count(resolve_threads(recipe.threads)));
+  return 64 * 1024 + views * (32 * lobes + 16) +
+         threads * (96 * nodes + 4096 * (lobes + 1) + 32 * (iterations + 1));
+}
+
+}  // namespace lobelight
