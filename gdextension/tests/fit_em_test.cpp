@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "fit/em.h"
 #include "fit/initial_guess.h"
@@ -164,6 +165,13 @@ TEST_CASE("A slice without mass gives lobes without weight") {
     CHECK(result.iterations == 0);
   }
   CHECK_THROWS_AS(run_em(Slice{}, {}), std::invalid_argument);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [kappa, kept] :
+       {std::pair{infinity, EmOptions().kappa_max}, {nan, 0.0}, {-1.0, 0.0}, {7.0, 7.0}}) {
+    const EmResult result = run_em(Slice{}, {{1.0, {{0.0, 0.0, 1.0}, kappa}}});
+    CHECK(result.mixture[0].gaussian.kappa == kept);
+  }
 }
 
 TEST_CASE("Nodes of weight zero count for nothing") {

@@ -110,7 +110,12 @@ EmResult run_em(const Slice& slice, Mixture start, const EmOptions& options) {
   if (!is_usable(slice)) return run_em(usable_nodes(slice), std::move(start), options);
   EmResult result;
   if (!(slice.albedo > 0.0)) {
-    for (Lobe& lobe : start) lobe.weight = 0.0;
+    for (Lobe& lobe : start) {
+      lobe.weight = 0.0;
+      // NaN fails the first comparison.
+      const double kappa = lobe.gaussian.kappa;
+      lobe.gaussian.kappa = kappa >= 0.0 ? std::min(kappa, options.kappa_max) : 0.0;
+    }
     result.mixture = std::move(start);
     result.converged = true;
     return result;
