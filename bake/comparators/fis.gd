@@ -39,17 +39,14 @@ func make_sphere() -> MeshInstance3D:
 	return make_part(0, samples)
 
 
-## The mean over [param count] of the samples, from the one with the index [param first]: pictures
-## of parts add up to those of more samples than fit into one shader.
+## The mean over [param count] of the samples, from the one with the index [param first]. Parts make
+## up pictures of more samples than one shader can have: see [method constants].
 func make_part(first: int, count: int) -> MeshInstance3D:
 	var defines: PackedStringArray = ["FIS_SAMPLES %d" % count, "FIS_" + brdf.to_upper()]
 	if alpha[0] == alpha[1]:
 		defines.append("FIS_ISOTROPIC")
 	if _light.is_even:
 		defines.append("FIS_ROUND_LEVELS")
-	var constants := PackedVector4Array()
-	for k in range(first, first + count):
-		constants.append(_ggx_constants(k) if brdf == "ggx" else _ward_constants(k))
 	return (
 		ComparisonSphere
 		. make(
@@ -58,12 +55,20 @@ func make_part(first: int, count: int) -> MeshInstance3D:
 			defines,
 			{
 				&"lobelight_environment": _light.cubemap,
-				&"fis_samples": constants,
+				&"fis_samples": constants(first, count),
 				&"fis_alpha": _widths(),
-				&"fis_level_scale": 2.0 * PI * alpha[0] * alpha[1] * _level_scale(),
+				&"fis_level_scale": TAU * alpha[0] * alpha[1] * _level_scale(),
 			}
 		)
 	)
+
+
+## The shader parameter fis_samples of a part.
+func constants(first: int, count: int) -> PackedVector4Array:
+	var values := PackedVector4Array()
+	for k in range(first, first + count):
+		values.append(_ggx_constants(k) if brdf == "ggx" else _ward_constants(k))
+	return values
 
 
 ## One environment fetch a sample; their directions come from uniforms.

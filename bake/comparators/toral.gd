@@ -26,7 +26,6 @@ static func make(count: int) -> ComparisonMethod:
 
 
 func prepare(stage: ComparisonStage) -> String:
-	coverage = stage.toral_coverage
 	var views := stage.toral_views
 	if views == Vector2i.ZERO:
 		views = ISOTROPIC_VIEWS if alpha[0] == alpha[1] else ANISOTROPIC_VIEWS
@@ -42,7 +41,13 @@ func prepare(stage: ComparisonStage) -> String:
 	)
 	if result.has("error"):
 		return result["error"]
-	table = LobeTable.from_baked(result)
+	return await use(LobeTable.from_baked(result), stage)
+
+
+## As [method prepare], with lobes that are there already.
+func use(fitted: LobeTable, stage: ComparisonStage) -> String:
+	coverage = stage.toral_coverage
+	table = fitted
 	_lobe_texture = ImageTexture.create_from_image(make_lobe_image(table))
 	_map = await stage.dual_paraboloid_map()
 	return "" if _map != null else "the renderer did not draw the dual-paraboloid map."

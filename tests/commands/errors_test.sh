@@ -113,6 +113,12 @@ compare_refuses "an unknown BRDF" "phong" \
   --brdf phong --alpha 0.1,0.1 --size 16 --out pictures --methods gmm4 --env "$environment"
 compare_refuses "a size of zero" "size" \
   --brdf ward --alpha 0.1,0.1 --size 0 --out pictures --methods gmm4 --env "$environment"
+compare_refuses "more coverage than all" "coverage" \
+  "${good_compare[@]}" --methods toral8 --env "$environment" --coverage 1
+compare_refuses "a negative number of rounds" "timing-rounds" \
+  "${good_compare[@]}" --methods gmm4 --env "$environment" --timing-rounds -1
+compare_refuses "more views than a table has" "views" \
+  "${good_compare[@]}" --methods toral8 --env "$environment" --views 1000,1
 compare_refuses "an unknown renderer" "vulkan9" \
   "${good_compare[@]}" --methods gmm4 --env "$environment" --renderer vulkan9
 

@@ -1,0 +1,421 @@
+extends GdUnitTestSuite
+## The methods that `./dev compare` sets beside this project's own do what their papers say.
+
+const Kit := preload("support/render_kit.gd")
+const Oracle := preload("support/brdf_oracle.gd")
+const Fis := preload("res://bake/comparators/fis.gd")
+const Toral := preload("res://bake/comparators/toral.gd")
+const DualParaboloidMap := preload("res://bake/comparators/dual_paraboloid_map.gd")
+
+const SIDE := 32
+const GRADIENT := Vector3(0.5, 0.3, -0.4)
+const NORMALS: Array[Vector3] = [
+	Vector3(0.05, 0.03, 1.0),
+	Vector3(0.6, 0.3, 1.0),
+	Vector3(-0.5, 0.9, 1.0),
+	Vector3(0.4, -1.9, 1.0)
+]
+const MATERIALS := [
+	["ward", 0.2, 0.2],
+	["ward", 0.1, 0.4],
+	["ward_bounded", 0.15, 0.3],
+	["ggx", 0.2, 0.2],
+	["ggx", 0.1, 0.4],
+]
+# How far the sum of the weights of 40 points may be from the albedo, at angles up to 63 degrees.
+const FURNACE_BIAS := 0.03
+const SKEWED_MATERIALS := [["ward", 0.1, 0.4], ["ward_bounded", 0.15, 0.3], ["ggx", 0.1, 0.4]]
+# Samples of a converged picture, and how many of them one shader takes.
+const MANY := 1024
+const PART := 64
+
+var _lamps := ""
+var _view: LinearViewport
+var _stage: ComparisonStage
+
+
+func before() -> void:
+	_lamps = create_temp_dir("comparators").path_join("lamps.exr")
+	_save_lamps(_lamps)
+
+
+func after() -> void:
+	clean_temp_dir()
+
+
+func before_test() -> void:
+	_view = LinearViewport.new(SIDE)
+	add_child(_view)
+	_stage = ComparisonStage.new(get_tree())
+
+
+func after_test() -> void:
+	_stage = null
+	_view.free()
+
+
+func test_known_and_unknown_names() -> void:
+	for name: String in ["gmm8", "fis8", "fis16", "fis40", "fis40g", "toral8", "toral16"]:
+		assert_str(CompareMethods.error(name)).is_empty()
+		var method := CompareMethods.make(name, "ward", PackedFloat64Array([0.1, 0.1]))
+		assert_str(method.name).is_equal(name)
+		var number := name.lstrip("abcdefghijklmnopqrstuvwxyz").to_int()
+		assert_int(method.cost()["fetches"]).is_equal(number)
+		assert_int(method.cost()["probes"]).is_equal(number)
+		assert_int(method.cost()["table_fetches"]).is_equal(
+			0 if name.begins_with("fis") else number
+		)
+	for name: String in [
+		"fis", "fis9", "fis8g", "toral", "toral4", "gmm", "gmm-1", "GMM8", "fis40gg"
+	]:
+		assert_str(CompareMethods.error(name)).contains("is unknown")
+	for name: String in CompareMethods.PLANNED:
+		assert_str(CompareMethods.error(name)).contains("not available yet")
+
+
+func test_hammersley_fills_the_square_evenly() -> void:
+	# Of 64 points, one in each elementary interval of area 1/64.
+	for columns: int in [1, 4, 8, 64]:
+		var cells := {}
+		for k in 64:
+			var u: Vector2 = Fis.hammersley(k, 64)
+			cells[Vector2i((u * Vector2(columns, 64.0 / columns)).floor())] = true
+		assert_int(cells.size()).is_equal(64)
+
+
+func test_fis_weights_and_levels(
+	brdf: String, x: float, y: float, _test_parameters := MATERIALS
+) -> void:
+	# In a cube map whose levels hold 1 + their number, a sample shows its level.
+	var method := _fis(brdf, x, y, 8)
+	_stage._lights["box"] = _level_light(32, "box")
+	assert_str(await method.prepare(_stage)).is_empty()
+	_view.add_child(method.make_sphere())
+	var image: Image = await _view.capture()
+	for normal in NORMALS:
+		var pixel := _pixel_of(normal)
+		var exact := Kit.sphere_normal(pixel.x, pixel.y, SIDE)
+		var frame := _frame(exact, x == y)
+		var o := frame.transposed() * Vector3.BACK
+		var expected := 0.0
+		var lowest := INF
+		for k in 8:
+			var h := Oracle.sample(brdf, Vector2(x, y), Fis.hammersley(k, 8), o)
+			var direction := (frame * (2.0 * o.dot(h) * h - o)).abs()
+			var m := direction[direction.max_axis_index()]
+			var texel := 4.0 / (32.0 * 32.0) * pow(m, 3.0)
+			var solid_angle := 1.0 / (8.0 * Oracle.density(brdf, Vector2(x, y), h, o))
+			var level := clampf(0.5 * log(solid_angle / texel) / log(2.0), 0.0, 5.0)
+			expected += Oracle.weight(brdf, Vector2(x, y), h, o) * (1.0 + level) / 8.0
+			lowest = minf(lowest, level)
+		assert_float(lowest).is_less(4.0)
+		_assert_close(image.get_pixelv(pixel).g, expected, 0.01, "normal %s" % exact)
+
+
+func test_fis_on_a_wider_pyramid_blurs_as_on_means_of_two_by_two() -> void:
+	# A level of the Gaussian pyramid blurs by four times the variance.
+	var variances: Array[float] = ComparisonStage.Pyramid.LEVEL_VARIANCES
+	assert_float(Fis.matching_bias(variances[ComparisonStage.FILTERS["box"]])).is_equal(0.0)
+	var gaussian: float = Fis.matching_bias(variances[ComparisonStage.FILTERS["gaussian"]])
+	assert_float(gaussian).is_equal_approx(-1.0, 1e-6)
+
+
+func test_fis_converges_to_the_reference(
+	brdf: String, x: float, y: float, _test_parameters := SKEWED_MATERIALS
+) -> void:
+	var options := {"env": _lamps, "brdf": brdf, "alpha": [x, y], "size": SIDE, "samples": 1024}
+	var reference: Dictionary = NativeLibrary.create(&"LobeReference").call(
+		"render_sphere", options
+	)
+	assert_str(reference.get("error", "")).is_empty()
+	var expected: PackedFloat32Array = reference["pixels"]
+	_set_panorama(_lamps)
+	var few := _error(await _drawn(_fis(brdf, x, y, 8)), expected)
+	var more := _error(await _drawn(_fis(brdf, x, y, 40)), expected)
+	var most := _error(await _drawn_in_parts(_fis(brdf, x, y, MANY)), expected)
+	var figures := "%f, %f, %f" % [few, more, most]
+	assert_float(more).append_failure_message(figures).is_less(0.4 * few)
+	assert_float(most).append_failure_message(figures).is_less(0.005)
+
+
+func test_white_furnace_of_fis(
+	brdf: String, x: float, y: float, _test_parameters := MATERIALS
+) -> void:
+	_stage.panorama = Kit.constant(3.0)
+	for own_pyramid: bool in [false, true]:
+		var method := _fis(brdf, x, y, 40)
+		method.on_own_pyramid = own_pyramid
+		var pixels := await _drawn(method)
+		for normal in NORMALS:
+			var pixel := _pixel_of(normal)
+			var frame := Kit.sphere_frame(Kit.sphere_normal(pixel.x, pixel.y, SIDE))
+			var view := frame.transposed() * Vector3.BACK
+			var albedo := LobeBaker.directional_albedo(brdf, Vector2(x, y), view)
+			var got := pixels[3 * (pixel.y * SIDE + pixel.x)]
+			_assert_close(got, 3.0 * albedo, FURNACE_BIAS, "normal %s" % normal)
+
+
+func test_white_furnace_of_toral() -> void:
+	_stage.panorama = Kit.constant(3.0)
+	var method := _toral(Kit.make_odd_table(8, Vector2i(9, 1), Vector2(0.2, 0.2)))
+	var pixels := await _drawn_with_table(method)
+	for normal in NORMALS:
+		var pixel := _pixel_of(normal)
+		var exact := Kit.sphere_normal(pixel.x, pixel.y, SIDE)
+		var step := LobeTable.MAX_VIEW_ANGLE / 8.0
+		var nearest := roundi(acos(exact.z) / step)
+		var albedo := method.table.directional_albedo(method.table.get_view(nearest, 0))
+		_assert_close(pixels[3 * (pixel.y * SIDE + pixel.x)], 3.0 * albedo, 0.005, str(exact))
+
+
+func test_toral_texture_holds_the_lobes() -> void:
+	var table := Kit.make_odd_table(8, Vector2i(7, 4), Vector2(0.1, 0.4))
+	var image: Image = Toral.make_lobe_image(table)
+	assert_vector(image.get_size()).is_equal(Vector2i(28, 8))
+	for azimuth in 4:
+		for elevation in 7:
+			var lobes := table.lobes_at(table.get_view(elevation, azimuth))
+			for k in 8:
+				var texel := image.get_pixel(azimuth * 7 + elevation, k)
+				var mean := Vector3(
+					sin(texel.b) * cos(texel.a), sin(texel.b) * sin(texel.a), cos(texel.b)
+				)
+				var expected: Vector3 = lobes[k]["mean"]
+				assert_vector(mean).is_equal_approx(expected.normalized(), 1e-5 * Vector3.ONE)
+				var kappa: float = lobes[k]["kappa"]
+				assert_float(texel.g).is_equal_approx(kappa, 1e-5 * kappa)
+				assert_float(texel.r).is_equal_approx(lobes[k]["weight"], 1e-6)
+
+
+func test_toral_takes_the_lobes_of_the_nearest_view() -> void:
+	# In a radiance 1 + g·d a lobe gives weight (1 + A g·mean), A = coth kappa - 1/kappa.
+	_stage.panorama = Kit.make_panorama(64, _linear)
+	for table: LobeTable in [
+		Kit.make_odd_table(8, Vector2i(9, 1), Vector2(0.2, 0.2), 9.0),
+		Kit.make_odd_table(16, Vector2i(7, 4), Vector2(0.1, 0.4), 9.0),
+	]:
+		var pixels := await _drawn_with_table(_toral(table))
+		for normal: Vector3 in NORMALS + [Vector3(-0.7, -0.8, 1.0)] as Array[Vector3]:
+			var pixel := _pixel_of(normal)
+			var exact := Kit.sphere_normal(pixel.x, pixel.y, SIDE)
+			var frame := _frame(exact, table.is_isotropic())
+			var o := frame.transposed() * Vector3.BACK
+			var fold := Vector3(signf(o.x), signf(o.y), 1.0)
+			if table.is_isotropic():
+				fold = Vector3.ONE
+			var expected := 0.0
+			for lobe in table.lobes_at(_nearest_view(table, o * fold)):
+				var mean: Vector3 = frame * (fold * (lobe["mean"] as Vector3))
+				var left := Kit.mean_cosine(lobe["kappa"])
+				expected += (lobe["weight"] as float) * (1.0 + left * GRADIENT.dot(mean))
+			var got := pixels[3 * (pixel.y * SIDE + pixel.x)]
+			_assert_close(got, expected, 0.015, "normal %s" % exact)
+
+
+func test_toral_levels() -> void:
+	# As for FIS: levels that hold 1 + their number.
+	var table := Kit.make_odd_table(8, Vector2i(9, 1), Vector2(0.2, 0.2))
+	var map := DualParaboloidMap.new()
+	map.side = 64
+	map.texture = Texture2DArray.new()
+	map.texture.create_from_images([_level_image(64), _level_image(64)])
+	_stage._map = map
+	for coverage: float in [0.47, 0.9]:
+		_stage.toral_coverage = coverage
+		var pixels := await _drawn_with_table(_toral(table))
+		for normal in NORMALS:
+			var pixel := _pixel_of(normal)
+			var frame := _frame(Kit.sphere_normal(pixel.x, pixel.y, SIDE), true)
+			var o := frame.transposed() * Vector3.BACK
+			var expected := 0.0
+			for lobe in table.lobes_at(_nearest_view(table, o)):
+				var direction: Vector3 = frame * (lobe["mean"] as Vector3)
+				var lobe_angle: float = -TAU * log(1.0 - coverage) / (lobe["kappa"] as float)
+				var density := 4.0 * 1.2 * 1.2 * pow(absf(direction.z) + 1.0, 2.0)
+				var level := 0.5 * log(lobe_angle / (density / (64.0 * 64.0))) / log(2.0)
+				expected += (lobe["weight"] as float) * (1.0 + clampf(level, 0.0, 6.0))
+			var got := pixels[3 * (pixel.y * SIDE + pixel.x)]
+			_assert_close(got, expected, 0.01, "normal %s, coverage %f" % [normal, coverage])
+
+
+func test_dual_paraboloid_map_has_levels_of_two_by_two_means() -> void:
+	_stage.panorama = Kit.make_panorama(16, _linear)
+	var map := await _stage.dual_paraboloid_map()
+	assert_int(map.side).is_equal(32)
+	for half in 2:
+		var image: Image = map.texture.get_layer_data(half)
+		# Compatibility reads only the finest level back.
+		if not image.has_mipmaps():
+			continue
+		var finer := _level_of(image, 0)
+		var coarser := _level_of(image, 1)
+		for y in coarser.get_height():
+			for x in coarser.get_width():
+				var sum := 0.0
+				for offset: Vector2i in [
+					Vector2i(0, 0), Vector2i(1, 0), Vector2i(0, 1), Vector2i(1, 1)
+				]:
+					sum += finer.get_pixelv(2 * Vector2i(x, y) + offset).r
+				assert_float(coarser.get_pixel(x, y).r).is_equal_approx(0.25 * sum, 0.002)
+
+
+static func _linear(direction: Vector3) -> Color:
+	var value := 1.0 + GRADIENT.dot(direction)
+	return Color(value, 2.0 * value, 0.5 * value)
+
+
+func _fis(brdf: String, x: float, y: float, samples: int) -> Fis:
+	var method: Fis = Fis.make(samples, false)
+	method.name = "fis%d" % samples
+	method.brdf = brdf
+	method.alpha = [x, y]
+	return method
+
+
+func _toral(table: LobeTable) -> Toral:
+	var method: Toral = Toral.make(table.lobe_count)
+	method.table = table
+	return method
+
+
+# The method's picture, three floats a pixel.
+func _drawn(method: ComparisonMethod) -> PackedFloat32Array:
+	assert_str(await method.prepare(_stage)).is_empty()
+	return await _captured(method.make_sphere())
+
+
+func _drawn_with_table(method: Toral) -> PackedFloat32Array:
+	assert_str(await method.use(method.table, _stage)).is_empty()
+	return await _captured(method.make_sphere())
+
+
+func _captured(sphere: MeshInstance3D) -> PackedFloat32Array:
+	_view.add_child(sphere)
+	var image: Image = await _view.capture()
+	sphere.free()
+	image.convert(Image.FORMAT_RGBF)
+	return image.get_data().to_float32_array()
+
+
+# The mean of the pictures of all parts of the samples.
+func _drawn_in_parts(method: Fis) -> PackedFloat32Array:
+	assert_str(await method.prepare(_stage)).is_empty()
+	var sphere := method.make_part(0, PART)
+	var material := (sphere.mesh as QuadMesh).material as ShaderMaterial
+	_view.add_child(sphere)
+	var sums := PackedFloat32Array()
+	sums.resize(3 * SIDE * SIDE)
+	for first in range(0, method.samples, PART):
+		material.set_shader_parameter(&"fis_samples", method.constants(first, PART))
+		var image: Image = await _view.capture()
+		image.convert(Image.FORMAT_RGBF)
+		var pixels := image.get_data().to_float32_array()
+		for i in sums.size():
+			sums[i] += pixels[i] * PART / method.samples
+	sphere.free()
+	return sums
+
+
+# The root of the mean squared difference over that of the mean square, where the sphere is seen at
+# less than 80 degrees.
+func _error(pixels: PackedFloat32Array, expected: PackedFloat32Array) -> float:
+	var difference := 0.0
+	var square := 0.0
+	for y in SIDE:
+		for x in SIDE:
+			if Kit.sphere_normal(x, y, SIDE).z < 0.17:
+				continue
+			for channel in 3:
+				var i := 3 * (y * SIDE + x) + channel
+				difference += pow(pixels[i] - expected[i], 2.0)
+				square += pow(expected[i], 2.0)
+	return sqrt(difference / square)
+
+
+# A smooth panorama with bright and dark parts.
+func _save_lamps(file: String) -> void:
+	var height := 32
+	var pixels := PackedFloat32Array()
+	for y in height:
+		for x in 2 * height:
+			var d := Kit.panorama_direction((x + 0.5) / (2.0 * height), (y + 0.5) / height)
+			var lamp := 20.0 * exp(12.0 * (d.dot(Vector3(-0.48, 0.64, 0.6)) - 1.0))
+			pixels.append_array([0.5 + lamp, 0.4 + 0.3 * d.y + lamp, 0.6 - 0.4 * d.x + 0.5 * lamp])
+	assert_str(NativeLibrary.save_exr(file, 2 * height, height, pixels)).is_empty()
+
+
+func _set_panorama(file: String) -> void:
+	var panorama := NativeLibrary.load_panorama(file)
+	var pixels: PackedFloat32Array = panorama["pixels"]
+	var size := Vector2i(panorama["width"], panorama["height"])
+	var bytes := pixels.to_byte_array()
+	_stage.panorama = ImageTexture.create_from_image(
+		Image.create_from_data(size.x, size.y, false, Image.FORMAT_RGBF, bytes)
+	)
+
+
+# Mip level l holds 1 + l.
+func _level_image(size: int) -> Image:
+	var data := PackedByteArray()
+	var level := 0
+	while size >> level > 0:
+		var image := Image.create_empty(size >> level, size >> level, false, Image.FORMAT_RGBAH)
+		image.fill(Color(1.0 + level, 1.0 + level, 1.0 + level))
+		data.append_array(image.get_data())
+		level += 1
+	return Image.create_from_data(size, size, true, Image.FORMAT_RGBAH, data)
+
+
+func _level_light(size: int, filter: String) -> ComparisonStage.EnvironmentLight:
+	var light := ComparisonStage.EnvironmentLight.new()
+	light.cubemap = Cubemap.new()
+	var face := _level_image(size)
+	light.cubemap.create_from_images([face, face, face, face, face, face])
+	light.size = size
+	light.level_variance = ComparisonStage.Pyramid.LEVEL_VARIANCES[ComparisonStage.FILTERS[filter]]
+	return light
+
+
+func _level_of(image: Image, level: int) -> Image:
+	var size := image.get_width() >> level
+	var offset := image.get_mipmap_offset(level)
+	var data := image.get_data().slice(offset, offset + size * size * 8)
+	return Image.create_from_data(size, size, false, Image.FORMAT_RGBAH, data)
+
+
+# The frame that the shaders use: isotropic materials have the view in the x-z plane.
+func _frame(normal: Vector3, isotropic: bool) -> Basis:
+	if not isotropic:
+		return Kit.sphere_frame(normal)
+	var across := (Vector3.BACK - normal * normal.z).normalized()
+	return Basis(across, normal.cross(across), normal)
+
+
+# `o` in the first quadrant.
+func _nearest_view(table: LobeTable, o: Vector3) -> Vector3:
+	var best := Vector3.ZERO
+	var least := INF
+	for azimuth in table.views.y:
+		for elevation in table.views.x:
+			var view := table.get_view(elevation, azimuth)
+			# Nearest in angle and azimuth, as the texture is laid out.
+			var azimuth_angle := 0.5 * PI * azimuth / maxf(table.views.y - 1, 1)
+			var across := 0.0 if table.is_isotropic() else absf(atan2(o.y, o.x) - azimuth_angle)
+			var away := absf(acos(o.z) - acos(view.z)) + across
+			if away < least:
+				least = away
+				best = view
+	return best
+
+
+func _pixel_of(normal: Vector3) -> Vector2i:
+	var p := normal.normalized()
+	return Vector2i(floori((p.x + 1.0) * 0.5 * SIDE), floori((1.0 - p.y) * 0.5 * SIDE))
+
+
+func _assert_close(got: float, expected: float, tolerance: float, what: String) -> void:
+	(
+		assert_float(got / expected)
+		. append_failure_message("%s: %f, expected %f" % [what, got, expected])
+		. is_equal_approx(1.0, tolerance)
+	)
