@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# measures the fit's speed, memory and error beside NumPy's and SciPy's ([--quick] [--only PART] [--json FILE] [--out DIR])
+source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
+
+BENCH_PROBES=("header benchmark/benchmark.h libbenchmark-dev")
+
+need_packages
+if [[ -n $(missing_packages "${BENCH_PROBES[@]}") ]]; then
+  install_packages "${BENCH_PROBES[@]}"
+fi
+need_openexr
+need_python bench
+# In a folder of its own: here Google Benchmark must be found, elsewhere it need not be.
+build=$ROOT/build/bench-cmake
+locked "$ROOT/build/lock" bash "$ROOT/tools/setup/bench.sh" "$build"
+export PYTHONDONTWRITEBYTECODE=1
+exec "$PYTHON" "$ROOT/tools/bench/bench.py" --build "$build" "$@"
