@@ -143,6 +143,8 @@ TEST_CASE("Awkward data give finite lobes") {
       {{up, -up, side, -side}, {0.25, 0.25, 0.25, 0.25}, 1.0},
       {{up, side, -up}, {0.0, 0.4, 0.0}, 0.4},  // zero weights
       {{up, side}, {1.0, 1e-300}, 1.0},
+      {{up, side, -side}, {1e300, 1e300, 1e300}, 3e300},
+      {{up, side, -side}, {1e-300, 1e-300, 1e-300}, 3e-300},
   };
   for (const Slice& slice : slices) {
     for (const int lobes : {1, 2, 8}) {

@@ -104,6 +104,13 @@ TEST_CASE("Coverage keeps its digits up to the whole sphere") {
     }
     CHECK(coverage_one_minus_cosine(kappa, 1.0) == doctest::Approx(2.0).epsilon(1e-15));
   }
+  for (const double kappa : {0.0, 1e-300, 1e-18, 1e-16}) {
+    for (const double coverage : {1e-12, 0.3, 1.0}) {
+      CAPTURE(kappa);
+      CHECK(coverage_one_minus_cosine(kappa, coverage) ==
+            doctest::Approx(2.0 * coverage).epsilon(1e-15));
+    }
+  }
   // The samples farthest from the mean are those of the density, not of its rounding.
   double before = 0.0;
   for (double beyond = 1e-13; beyond > 1.2e-16; beyond *= 0.5) {

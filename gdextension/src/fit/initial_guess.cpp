@@ -73,13 +73,16 @@ Mixture initial_guess(const Slice& slice, int lobes) {
   const auto set_count = static_cast<std::size_t>(lobes);
   if (count == 0 || !(slice.albedo > 0.0)) return Mixture(set_count);
 
+  // Shares of the mass: squares of what measured data may weigh, 1e300 or 1e-300, are no numbers.
+  std::vector<double> share(count);
+  for (std::size_t n = 0; n < count; ++n) share[n] = slice.weights[n] / slice.albedo;
+
   glm::dvec3 centre(0.0);
-  for (std::size_t n = 0; n < count; ++n) centre += slice.weights[n] * slice.directions[n];
-  centre /= slice.albedo;
+  for (std::size_t n = 0; n < count; ++n) centre += share[n] * slice.directions[n];
   glm::dmat3 covariance(0.0);
   for (std::size_t n = 0; n < count; ++n) {
     const glm::dvec3 d = slice.directions[n] - centre;
-    covariance += slice.weights[n] * glm::outerProduct(d, d);
+    covariance += share[n] * glm::outerProduct(d, d);
   }
   const glm::dvec3 axis = principal_axis(covariance);
 
@@ -95,12 +98,12 @@ Mixture initial_guess(const Slice& slice, int lobes) {
   std::vector<Sums> sums(set_count);
   double before = 0.0;
   for (const std::size_t n : order) {
-    const double middle = (before + 0.5 * slice.weights[n]) / slice.albedo;
+    const double middle = before + 0.5 * share[n];
     const auto set = std::min(set_count - 1, static_cast<std::size_t>(middle * lobes));
     set_of[n] = set;
-    sums[set].weight += slice.weights[n];
-    sums[set].direction += slice.weights[n] * slice.directions[n];
-    before += slice.weights[n];
+    sums[set].weight += share[n];
+    sums[set].direction += share[n] * slice.directions[n];
+    before += share[n];
   }
 
   Mixture mixture(set_count);
@@ -119,7 +122,7 @@ Mixture initial_guess(const Slice& slice, int lobes) {
   std::vector<double> spread(set_count, 0.0);
   for (std::size_t n = 0; n < count; ++n) {
     const glm::dvec3 d = slice.directions[n] - mixture[set_of[n]].gaussian.mean;
-    spread[set_of[n]] += slice.weights[n] * glm::dot(d, d);
+    spread[set_of[n]] += share[n] * glm::dot(d, d);
   }
   for (std::size_t k = 0; k < set_count; ++k) {
     const double one_minus_r = sums[k].weight > 0.0 ? 0.5 * spread[k] / sums[k].weight : 0.0;

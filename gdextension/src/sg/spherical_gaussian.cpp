@@ -44,7 +44,9 @@ double density(const SphericalGaussian& gaussian, const glm::dvec3& direction) {
 
 double coverage_one_minus_cosine(double kappa, double coverage) {
   // Mass within θ: (1 − e^{−κ(1 − cos θ)}) / (1 − e^{−2κ}); solved for 1 − cos θ.
-  if (!(kappa > std::numeric_limits<double>::min())) return 2.0 * coverage;
+  // t = 2 coverage (1 − κ (1 − coverage) + …): the first term alone where κ is below the last bit,
+  // and well before κ · coverage underflows.
+  if (!(kappa > 1e-17)) return 2.0 * coverage;
   // What lies beyond θ, e^{−κ(1 − cos θ)} = 1 − m with m = coverage (1 − e^{−2κ}), as the sum of
   // two positive numbers where it is small: close to full coverage 1 − m would be nothing but
   // rounding.
