@@ -223,5 +223,58 @@ TEST_CASE("Impossible tables are refused") {
   CHECK_THROWS_AS(LobeTable::from_rgba16f({0.1, 0.1}, 2, {2, 1}, texels), std::invalid_argument);
 }
 
+TEST_CASE("Lobes keep their channels' weights, in texels too") {
+  LobeTable table({0.1, 0.2}, 2, {3, 2});
+  CHECK_FALSE(table.has_second_texels());
+  CHECK(table.height() == 4);
+  CHECK_THROWS_AS(table.set_channel_weights_at_view(0, 0, {{1, 2, 3}, {4, 5, 6}}),
+                  std::invalid_argument);
+  table.add_second_texels();
+  CHECK(table.height() == 8);
+  testing::Uniform uniform(5);
+  for (int p = 0; p < 2; ++p) {
+    for (int t = 0; t < 3; ++t) {
+      const glm::dvec3 o = table.view(t, p);
+      table.set_mixture_at_view(t, p, {{0.5, {{0, 0, 1}, 50.0}}, {0.25, {{0, 0, 1}, 20.0}}});
+      const std::vector<glm::dvec3> weights = {{uniform.next(), uniform.next(), uniform.next()},
+                                               {0.0, 0.0, uniform.next()}};
+      table.set_channel_weights_at_view(t, p, weights);
+      table.add_second_texels();  // changes nothing where there are some
+      std::vector<std::vector<glm::dvec3>> readings = {table.channel_weights_at_view(t, p)};
+      // At the pole all azimuths are one view, read in column 0.
+      if (t > 0 || p == 0) readings.push_back(table.interpolate_channel_weights(o));
+      for (const auto& found : readings) {
+        for (std::size_t k = 0; k < 2; ++k) {
+          for (int channel = 0; channel < 3; ++channel) {
+            CHECK(found[k][channel] == doctest::Approx(weights[k][channel]));
+          }
+          const double mean = (weights[k].x + weights[k].y + weights[k].z) / 3.0;
+          CHECK(table.mixture_at_view(t, p)[k].weight == doctest::Approx(mean));
+        }
+      }
+    }
+  }
+  const auto texels = table.to_rgba16f();
+  CHECK(texels.size() == 4u * 3u * 8u);
+  const LobeTable back = LobeTable::from_rgba16f({0.1, 0.2}, 2, {3, 2}, texels);
+  CHECK(back.has_second_texels());
+  CHECK(back.to_rgba16f() == texels);
+  // Between views the mean of the channels stays the lobe's weight.
+  const glm::dvec3 o = glm::normalize(glm::dvec3(0.3, -0.2, 0.6));
+  const auto weights = back.interpolate_channel_weights(o);
+  const Mixture mixture = back.interpolate(o);
+  for (std::size_t k = 0; k < 2; ++k) {
+    CHECK((weights[k].x + weights[k].y + weights[k].z) / 3.0 ==
+          doctest::Approx(mixture[k].weight).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("A table without second texels is colourless") {
+  LobeTable table({0.1, 0.1}, 1, {2, 1});
+  table.set_mixture_at_view(1, 0, {{0.7, {{0, 0, 1}, 50.0}}});
+  CHECK(table.channel_weights_at_view(1, 0).front() == glm::dvec3(0.7));
+  CHECK(table.second_entry(0, 1, 0) == LobeTable::kPlain);
+}
+
 }  // namespace
 }  // namespace lobelight

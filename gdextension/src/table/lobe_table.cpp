@@ -27,6 +27,11 @@ Lobe decode(const LobeTable::Entry& entry, const glm::dvec2& alpha, const glm::d
   return {entry.w, from_half_vector(lobe, o)};
 }
 
+glm::dvec3 decode_channels(const LobeTable::Entry& first, const LobeTable::Entry& second) {
+  // Rounding may leave a little less than nothing for green.
+  return first.w * glm::dvec3(second.z, std::max(0.0, 3.0 - second.z - second.w), second.w);
+}
+
 // Grid cell of a real coordinate in [0, count − 1]: its lower node and the way to the next.
 struct Cell {
   int first;
@@ -85,45 +90,100 @@ void LobeTable::set_mixture_at_view(int t, int p, const Mixture& mixture) {
   }
 }
 
-Mixture LobeTable::interpolate(const glm::dvec3& direction) const {
+std::vector<glm::dvec3> LobeTable::channel_weights_at_view(int t, int p) const {
+  std::vector<glm::dvec3> weights;
+  for (int k = 0; k < lobes_; ++k) {
+    weights.push_back(decode_channels(entry(k, t, p), second_entry(k, t, p)));
+  }
+  return weights;
+}
+
+void LobeTable::set_channel_weights_at_view(int t, int p, const std::vector<glm::dvec3>& weights) {
+  if (weights.size() != static_cast<std::size_t>(lobes_) || !has_second_texels()) {
+    throw std::invalid_argument("A coloured view takes as many lobes as its table has.");
+  }
+  for (int k = 0; k < lobes_; ++k) {
+    const glm::dvec3& rgb = weights[static_cast<std::size_t>(k)];
+    const double mean = (rgb.x + rgb.y + rgb.z) / 3.0;
+    entries_[index(k, t, p)].w = mean;
+    Entry& second = second_entries_[index(k, t, p)];
+    // A lobe without weight has any colour; white is the one that interpolates best.
+    second.z = mean > 0.0 ? rgb.x / mean : 1.0;
+    second.w = mean > 0.0 ? rgb.z / mean : 1.0;
+  }
+}
+
+struct LobeTable::Place {
+  Cell t;
+  Cell p;
+  glm::dvec2 x_axis;
+  glm::dvec2 y_axis;
+  glm::dvec3 view;  // in the frame of the entries
+
+  template <typename Read>
+  Entry read(const Read& entry_at) const {
+    const Entry low = glm::mix(entry_at(t.first, p.first), entry_at(t.second, p.first), t.fraction);
+    const Entry high =
+        glm::mix(entry_at(t.first, p.second), entry_at(t.second, p.second), t.fraction);
+    return glm::mix(low, high, p.fraction);
+  }
+};
+
+LobeTable::Place LobeTable::locate_view(const glm::dvec3& direction) const {
   const glm::dvec3 o =
       glm::normalize(glm::dvec3(direction.x, direction.y, std::max(direction.z, kLeastCosine)));
   const double sine = std::hypot(o.x, o.y);
-  const Cell t = locate(std::atan2(sine, o.z) / kMaxElevation * (views_.x - 1), views_.x);
+  Place place;
+  place.t = locate(std::atan2(sine, o.z) / kMaxElevation * (views_.x - 1), views_.x);
 
   // The frame in which the entries hold: table axes (x, y) = ±(o.x, o.y) as signs, or o's
   // projection.
-  glm::dvec2 x_axis(o.x < 0.0 ? -1.0 : 1.0, 0.0);
-  glm::dvec2 y_axis(0.0, o.y < 0.0 ? -1.0 : 1.0);
-  Cell p{0, 0, 0.0};
+  place.x_axis = {o.x < 0.0 ? -1.0 : 1.0, 0.0};
+  place.y_axis = {0.0, o.y < 0.0 ? -1.0 : 1.0};
+  place.p = {0, 0, 0.0};
   if (is_isotropic()) {
-    x_axis = sine > 0.0 ? glm::dvec2(o.x, o.y) / sine : glm::dvec2(1.0, 0.0);
-    y_axis = {-x_axis.y, x_axis.x};
+    place.x_axis = sine > 0.0 ? glm::dvec2(o.x, o.y) / sine : glm::dvec2(1.0, 0.0);
+    place.y_axis = {-place.x_axis.y, place.x_axis.x};
   } else {
-    p = locate(std::atan2(std::abs(o.y), std::abs(o.x)) / kHalfPi * (views_.y - 1), views_.y);
+    place.p = locate(std::atan2(std::abs(o.y), std::abs(o.x)) / kHalfPi * (views_.y - 1), views_.y);
   }
-  const glm::dvec3 local(glm::dot(x_axis, glm::dvec2(o)), glm::dot(y_axis, glm::dvec2(o)), o.z);
+  place.view = {glm::dot(place.x_axis, glm::dvec2(o)), glm::dot(place.y_axis, glm::dvec2(o)), o.z};
+  return place;
+}
 
+Mixture LobeTable::interpolate(const glm::dvec3& direction) const {
+  const Place place = locate_view(direction);
   Mixture mixture;
   mixture.reserve(static_cast<std::size_t>(lobes_));
   for (int k = 0; k < lobes_; ++k) {
-    const Entry low = glm::mix(entry(k, t.first, p.first), entry(k, t.second, p.first), t.fraction);
-    const Entry high =
-        glm::mix(entry(k, t.first, p.second), entry(k, t.second, p.second), t.fraction);
-    Lobe lobe = decode(glm::mix(low, high, p.fraction), alpha_, local);
+    const Entry read = place.read([&](int t, int p) { return entry(k, t, p); });
+    Lobe lobe = decode(read, alpha_, place.view);
     const glm::dvec3 mean = lobe.gaussian.mean;
-    lobe.gaussian.mean = glm::dvec3(mean.x * x_axis + mean.y * y_axis, mean.z);
+    lobe.gaussian.mean = glm::dvec3(mean.x * place.x_axis + mean.y * place.y_axis, mean.z);
     mixture.push_back(lobe);
   }
   return mixture;
 }
 
+std::vector<glm::dvec3> LobeTable::interpolate_channel_weights(const glm::dvec3& direction) const {
+  const Place place = locate_view(direction);
+  std::vector<glm::dvec3> weights;
+  for (int k = 0; k < lobes_; ++k) {
+    weights.push_back(
+        decode_channels(place.read([&](int t, int p) { return entry(k, t, p); }),
+                        place.read([&](int t, int p) { return second_entry(k, t, p); })));
+  }
+  return weights;
+}
+
 std::vector<std::uint16_t> LobeTable::to_rgba16f() const {
   std::vector<std::uint16_t> texels;
-  texels.reserve(4 * entries_.size());
-  for (const Entry& entry : entries_) {
-    for (int channel = 0; channel < 4; ++channel) {
-      texels.push_back(half_from_double(std::clamp(entry[channel], -kLargestHalf, kLargestHalf)));
+  texels.reserve(4 * (entries_.size() + second_entries_.size()));
+  for (const std::vector<Entry>* entries : {&entries_, &second_entries_}) {
+    for (const Entry& entry : *entries) {
+      for (int channel = 0; channel < 4; ++channel) {
+        texels.push_back(half_from_double(std::clamp(entry[channel], -kLargestHalf, kLargestHalf)));
+      }
     }
   }
   return texels;
@@ -132,7 +192,9 @@ std::vector<std::uint16_t> LobeTable::to_rgba16f() const {
 LobeTable LobeTable::from_rgba16f(const glm::dvec2& alpha, int lobes, const glm::ivec2& views,
                                   const std::vector<std::uint16_t>& texels) {
   LobeTable table(alpha, lobes, views);
-  if (texels.size() != 4 * table.entries_.size()) {
+  const std::size_t count = table.entries_.size();
+  if (texels.size() == 8 * count) table.add_second_texels();
+  if (texels.size() != 4 * (count + table.second_entries_.size())) {
     throw std::invalid_argument("The texels do not have the size of the lobe table.");
   }
   for (std::size_t n = 0; n < texels.size(); ++n) {
@@ -140,7 +202,8 @@ LobeTable LobeTable::from_rgba16f(const glm::dvec2& alpha, int lobes, const glm:
     if (!std::isfinite(value)) {
       throw std::invalid_argument("The texels of a lobe table must be finite numbers.");
     }
-    table.entries_[n / 4][static_cast<int>(n % 4)] = value;
+    Entry& entry = n < 4 * count ? table.entries_[n / 4] : table.second_entries_[n / 4 - count];
+    entry[static_cast<int>(n % 4)] = value;
   }
   return table;
 }

@@ -25,6 +25,12 @@ class LobeTable {
   // What a texel holds: the half-vector's slopes divided by alpha, log2(κ (o·h)) and the weight.
   using Entry = glm::dvec4;
 
+  // What the second texel of a lobe holds, in tables that have one: (p, q, tint_r, tint_b).
+  // [[p, q], [q, −p]] is the logarithm of the lobe's covariance in whitened slopes, as far as it is
+  // not round. The channels' weights are w tint_r, w (3 − tint_r − tint_b) and w tint_b, w being
+  // the first texel's weight, which is their mean.
+  static constexpr Entry kPlain{0.0, 0.0, 1.0, 1.0};  // round and colourless
+
   // A table of zeros. `alpha` > 0, `lobes` ≥ 1, `views` = (T ≥ 2, P ≥ 1); throws
   // std::invalid_argument otherwise.
   LobeTable(const glm::dvec2& alpha, int lobes, const glm::ivec2& views);
@@ -39,6 +45,13 @@ class LobeTable {
 
   const Entry& entry(int lobe, int t, int p) const { return entries_[index(lobe, t, p)]; }
 
+  // Whether lobes have a second texel; add_second_texels() gives plain ones to those that have not.
+  bool has_second_texels() const { return !second_entries_.empty(); }
+  void add_second_texels() { second_entries_.resize(entries_.size(), kPlain); }
+  const Entry& second_entry(int lobe, int t, int p) const {
+    return has_second_texels() ? second_entries_[index(lobe, t, p)] : kPlain;
+  }
+
   // The lobes stored for view (t, p), and their storing; `mixture` has lobes() lobes whose means
   // are above the horizon. Lobe k of neighbouring views should be the same lobe.
   Mixture mixture_at_view(int t, int p) const;
@@ -50,17 +63,30 @@ class LobeTable {
   // elevation, or below the horizon, is the view of the last elevation and (almost) its azimuth.
   Mixture interpolate(const glm::dvec3& direction) const;
 
-  // Texture: width T, height lobes · P, row k · P + p, column t; four half floats a texel.
+  // The weights in the three channels of view (t, p)'s lobes, and their storing in a table with
+  // second texels, which makes the lobes' weights their means.
+  std::vector<glm::dvec3> channel_weights_at_view(int t, int p) const;
+  void set_channel_weights_at_view(int t, int p, const std::vector<glm::dvec3>& weights);
+
+  // The channels' weights of the lobes that interpolate() gives.
+  std::vector<glm::dvec3> interpolate_channel_weights(const glm::dvec3& direction) const;
+
+  // Texture: width T, column t; lobes · P rows of first texels, row k · P + p, and below them as
+  // many rows of second texels in tables that have them; four half floats a texel.
   int width() const { return views_.x; }
-  int height() const { return lobes_ * views_.y; }
+  int height() const { return lobes_ * views_.y * (has_second_texels() ? 2 : 1); }
   std::vector<std::uint16_t> to_rgba16f() const;
 
   // Inverse of to_rgba16f(), up to its rounding. Throws std::invalid_argument when `texels` does
-  // not hold 4 · T · lobes · P finite numbers.
+  // not hold 4 · T · lobes · P finite numbers, or twice as many.
   static LobeTable from_rgba16f(const glm::dvec2& alpha, int lobes, const glm::ivec2& views,
                                 const std::vector<std::uint16_t>& texels);
 
  private:
+  // Where a view is read: its cells of the grid, and the frame in which the entries hold.
+  struct Place;
+  Place locate_view(const glm::dvec3& direction) const;
+
   std::size_t index(int lobe, int t, int p) const {
     return (static_cast<std::size_t>(lobe) * static_cast<std::size_t>(views_.y) +
             static_cast<std::size_t>(p)) *
@@ -72,6 +98,7 @@ class LobeTable {
   int lobes_;
   glm::ivec2 views_;
   std::vector<Entry> entries_;
+  std::vector<Entry> second_entries_;  // as many, or none
 };
 
 }  // namespace lobelight
