@@ -122,7 +122,7 @@ EmResult run_em(const Slice& slice, Mixture start, const EmOptions& options) {
   }
 
   Em em(slice, options);
-  EmAcceleration acceleration;
+  EmAcceleration acceleration(options.longest_step);
   State state = em.at(std::move(start));
   result.log_likelihood.push_back(state.log_likelihood);
   while (result.iterations < options.max_iterations && !result.converged) {

@@ -34,6 +34,10 @@ struct EmOptions {
   // Steps longer than EM's where they raise the likelihood (fit/em_acceleration.h): a quarter of
   // the iterations. Without, this is EM as in the textbook.
   bool accelerate = true;
+  // How far an accelerated step may go: means by so many standard deviations, weights and
+  // sharpnesses by so much in their logarithm. 0.3 needs the fewest iterations. With shorter steps
+  // lobes end up closer to where they began; with 0.05 they get stuck.
+  double longest_step = 0.3;
   // Bounds that keep collapsing lobes finite: least share of the mass, greatest sharpness.
   double weight_floor = 1e-12;
   double kappa_max = 1e8;

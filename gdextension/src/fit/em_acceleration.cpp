@@ -184,7 +184,7 @@ Mixture EmAcceleration::propose(const Mixture& before, const Mixture& after) {
     longest = std::max(longest, std::abs(step[i]) * units[i]);
   }
   Vector proposed = place;
-  add(proposed, longest > kLongestStep ? kLongestStep / longest : 1.0, step);
+  add(proposed, longest > longest_step_ ? longest_step_ / longest : 1.0, step);
   return mixture_at(proposed, before);
 }
 

@@ -130,6 +130,9 @@ void lift_above_horizon(Mixture& mixture) {
 }
 
 void TableFit::fit_by_continuation() {
+  // Short steps, so that lobes stay what they are from view to view: half-way between views tables
+  // are up to a tenth better than with 0.3, for a fifth more iterations.
+  options_.em.longest_step = std::min(options_.em.longest_step, 0.1);
   // Normal incidence is symmetric in both planes; the planes that count are those that the table is
   // mirrored in and, for isotropic ones, the plane of incidence.
   const Slice slice = sample_slice(brdf_, table_.view(0, 0), options_.nodes_per_axis, rotation_);
