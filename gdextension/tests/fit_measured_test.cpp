@@ -5,6 +5,7 @@
 
 #include "brdf/binary_file.h"
 #include "brdf/ggx.h"
+#include "fit/channel_weights.h"
 #include "fit/table_fitter.h"
 #include "measured_files.h"
 #include "statistics.h"
@@ -108,6 +109,40 @@ TEST_CASE("An anisotropic RGL file's table is that of the model it was made of")
   CHECK_THROWS_WITH_AS(fit(recipe),
                        "views is (8, 1), but an anisotropic alpha needs at least 2 azimuths.",
                        std::invalid_argument);
+}
+
+TEST_CASE("A coloured file's table has the colours of what it was made of") {
+  const auto model = make_brdf("ggx", {0.2, 0.2});
+  const glm::dvec3 colour(0.9, 0.6, 0.3);
+  const TemporaryFile file(".binary");
+  file.write(testing::merl_file([&](const glm::dvec3& i, const glm::dvec3& o) {
+    // Red at normal incidence, white at grazing.
+    const double cosine = glm::dot(glm::normalize(i + o), i);
+    return glm::mix(colour, glm::dvec3(1.0), std::pow(1.0 - cosine, 5.0)) * model->evaluate(i, o);
+  }));
+  Recipe recipe;
+  recipe.brdf = file.path();
+  recipe.alpha = {0.0, 0.0};
+  recipe.lobes = 4;
+  const LobeTable table = fit(recipe);
+  REQUIRE(table.has_second_texels());
+  const auto brdf = make_brdf(recipe.brdf, recipe.alpha);
+  for (int t = 0; t < 16; ++t) {
+    CAPTURE(t);
+    const glm::dvec3 o = table.view(t, 0);
+    const Slice slice = sample_slice(*brdf, o);
+    glm::dvec3 albedo(0.0);
+    for (const glm::dvec3& weight : channel_node_weights(*brdf, o, slice)) albedo += weight;
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& weight : table.channel_weights_at_view(t, 0)) sum += weight;
+    for (int channel = 0; channel < 3; ++channel) {
+      CHECK(sum[channel] == doctest::Approx(albedo[channel]).epsilon(1e-9));
+    }
+    if (t < 8) CHECK(sum.z / sum.x == doctest::Approx(0.3 / 0.9).epsilon(0.1));
+    // The texel's weights are the means of the channels'.
+    CHECK(total_weight(table.mixture_at_view(t, 0)) ==
+          doctest::Approx((sum.x + sum.y + sum.z) / 3.0).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("What is wrong with a file shows when it is fitted") {

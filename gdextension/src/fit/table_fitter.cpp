@@ -12,6 +12,7 @@
 
 #include "base/parallel.h"
 #include "brdf/measured.h"
+#include "fit/channel_weights.h"
 #include "fit/initial_guess.h"
 #include "table/half_vector.h"
 
@@ -36,6 +37,7 @@ class TableFit {
         report_(report),
         brdf_(brdf),
         table_(brdf.alpha(), recipe.lobes, resolve_views(recipe, brdf.is_isotropic())) {
+    if (brdf.is_coloured()) table_.add_second_texels();
     options_.em.progress = &progress;
     const double turns = static_cast<double>(recipe.seed % 1048576) * kGoldenRatioFraction;
     rotation_ = turns - std::floor(turns);
@@ -88,6 +90,10 @@ Mixture TableFit::fit_view(int t, int p, Mixture start, std::vector<Mirror> mirr
   em.mirrors = std::move(mirrors);
   EmResult result = run_em(slice, std::move(start), em);
   table_.set_mixture_at_view(t, p, result.mixture);
+  if (table_.has_second_texels()) {
+    const auto nodes = channel_node_weights(brdf_, table_.view(t, p), slice);
+    table_.set_channel_weights_at_view(t, p, channel_weights(slice, nodes, result.mixture));
+  }
 
   const auto view = static_cast<std::size_t>(p * elevations() + t);
   report_.iterations[view] = result.iterations;
@@ -152,6 +158,9 @@ void TableFit::fit_column(int p, const Mixture& pole, const std::vector<Mirror>&
   if (p > 0) {
     // At the pole all azimuths are one view.
     table_.set_mixture_at_view(0, p, pole);
+    if (table_.has_second_texels()) {
+      table_.set_channel_weights_at_view(0, p, table_.channel_weights_at_view(0, 0));
+    }
     report_.log_likelihood[static_cast<std::size_t>(p * elevations())] = report_.log_likelihood[0];
     count_finished_view();
   }

@@ -62,8 +62,9 @@ struct FitOptions {
   bool keep_mirror_symmetry = true;
 };
 
-// Fits the recipe's table; the bytes are the same for any number of threads. Throws what validate()
-// and make_brdf() do, and Cancelled. `report` may be null.
+// Fits the recipe's table. The lobes of a coloured BRDF are fitted to the mean of its channels and
+// get weights for each of them (fit/channel_weights.h). The bytes are the same for any number of
+// threads. Throws what validate() and make_brdf() do, and Cancelled. `report` may be null.
 LobeTable fit_table(const Recipe& recipe, Progress& progress, FitReport* report,
                     const FitOptions& options = {});
 
