@@ -10,12 +10,13 @@ const FILTERS: Dictionary[String, LobeEnvironment3D.Filter] = {
 	"box": LobeEnvironment3D.Filter.BOX,
 	"binomial": LobeEnvironment3D.Filter.BINOMIAL,
 	"gaussian": LobeEnvironment3D.Filter.GAUSSIAN,
+	"disc": LobeEnvironment3D.Filter.DISC,
 }
 
 var tree: SceneTree
 var panorama: Texture2D
 ## A key of [constant FILTERS]: how the project's own pyramid is made.
-var filter := "gaussian"
+var filter := "disc"
 ## Of toral: the share c of a lobe that the texels of its level cover (the thesis' alpha). 0.47, or
 ## 1 - exp(-2 / pi), makes their variance the lobe's.
 var toral_coverage := 0.47
@@ -67,7 +68,7 @@ func light(used_filter: String) -> EnvironmentLight:
 		made.cubemap = environment.get_cubemap()
 		made.size = made.cubemap.get_width()
 		made.level_variance = Pyramid.LEVEL_VARIANCES[FILTERS[used_filter]]
-		made.is_even = used_filter == "gaussian"
+		made.is_even = Pyramid.is_round(FILTERS[used_filter] as Pyramid.Filter)
 		_lights[used_filter] = made
 	environment.free()
 	return made

@@ -4,7 +4,12 @@ extends GdUnitTestSuite
 const Kit := preload("support/render_kit.gd")
 const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
 
-const FILTERS := [[Pyramid.Filter.BOX], [Pyramid.Filter.BINOMIAL], [Pyramid.Filter.GAUSSIAN]]
+const FILTERS := [
+	[Pyramid.Filter.BOX],
+	[Pyramid.Filter.BINOMIAL],
+	[Pyramid.Filter.GAUSSIAN],
+	[Pyramid.Filter.DISC],
+]
 const SIZE := 32
 const GRADIENT := Vector3(0.4, -0.3, 0.2)
 
@@ -74,7 +79,7 @@ func test_no_seam(filter: Pyramid.Filter, _test_parameters := FILTERS) -> void:
 func test_variance_of_levels(filter: Pyramid.Filter, _test_parameters := FILTERS) -> void:
 	# The shader's V_l without the sampler's tent is s² c a (4^l - 1), a = m³ or 1.
 	var c := Pyramid.LEVEL_VARIANCES[filter]
-	var even := filter == Pyramid.Filter.GAUSSIAN
+	var even := Pyramid.is_round(filter)
 	# Towards the corners the texels of the cube are askew, and so are their means.
 	var tolerances: Dictionary[Vector3, float] = {
 		Vector3(0.1, 0.05, 1): 0.1, Vector3(1, 0.8, 0.2): 0.1, Vector3(1, 1, 0.9): 0.2

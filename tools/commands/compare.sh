@@ -12,7 +12,7 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
                 reference: with itself
 --size N        pixels along the side (default 256)
 --renderer R    mobile (default), gl_compatibility or forward_plus
---filter F      of the pyramid of gmm and fis40g: gaussian (default), binomial or box
+--filter F      of the pyramid of gmm and fis40g: disc (default), gaussian, binomial or box
 --samples N     of the reference, a pixel
 --timing-rounds N   GPU times of every method, in turns (default 15); 0 measures none
 --coverage C    of toral: the share of a lobe that its texels cover (default 0.47)

@@ -22,9 +22,12 @@ enum Filter {
 	BOX,
 	## [1 3 3 1] / 8 along each axis, across the edges of the cube.
 	BINOMIAL,
-	## Spherical Gaussians, which unlike the others blur equally along all directions. The least
-	## error, and the same cost per frame; making the pyramid takes longer.
+	## Spherical Gaussians, which unlike the above blur equally along all directions. Less error at
+	## the same cost per frame; making the pyramid takes longer.
 	GAUSSIAN,
+	## Means over discs, as round as the Gaussians. The least error, because mixtures of two levels,
+	## which is what lobes look up, come nearer to Gaussians; the same cost as Gaussians.
+	DISC,
 }
 
 const EnvironmentLight := preload("environment_light.gd")
@@ -51,7 +54,7 @@ static var _arrivals := 0
 		_queue_rebuild()
 		update_configuration_warnings()
 ## How the pyramid's levels are made.
-@export var filter := Filter.GAUSSIAN:
+@export var filter := Filter.DISC:
 	set(value):
 		filter = value
 		_queue_rebuild()
@@ -185,7 +188,7 @@ func rebuild() -> bool:
 	light.cubemap.create_from_images(faces)
 	light.size = face_size
 	light.level_variance = Pyramid.LEVEL_VARIANCES[used_filter]
-	light.is_even = used_filter == Pyramid.Filter.GAUSSIAN
+	light.is_even = Pyramid.is_round(used_filter)
 	_set_light(light)
 	return true
 

@@ -8,15 +8,15 @@ extends RefCounted
 ## has come. Everything on the rendering server is freed with the object.
 
 ## How a level is made from the finer one.
-enum Filter { BOX, BINOMIAL, GAUSSIAN }
+enum Filter { BOX, BINOMIAL, GAUSSIAN, DISC }
 
 const PanoramaShader := preload("shaders/pyramid_panorama.gdshader")
-const GaussianShader := preload("shaders/pyramid_gaussian.gdshader")
+const RoundShader := preload("shaders/pyramid_round.gdshader")
 const ReduceShader := preload("shaders/pyramid_reduce.gdshader")
 
 ## By filter, a third of the variance that a level's kernel has per axis, in solid angles of the
 ## finer level's texels: c in shaders/environment.gdshaderinc.
-const LEVEL_VARIANCES: Array[float] = [1.0 / 12.0, 1.0 / 4.0, 5.0 / 6.0]
+const LEVEL_VARIANCES: Array[float] = [1.0 / 12.0, 1.0 / 4.0, 5.0 / 6.0, 5.0 / 6.0]
 ## Texels along the side of a face: the least and the most that can be asked for.
 const MIN_SIZE := 4
 const MAX_SIZE := 2048
@@ -63,6 +63,11 @@ static func has_renderer() -> bool:
 	return DisplayServer.get_name() != "headless"
 
 
+## Whether a filter blurs alike along all directions, and all over the sphere.
+static func is_round(filter: Filter) -> bool:
+	return filter == Filter.GAUSSIAN or filter == Filter.DISC
+
+
 ## The size chosen for a panorama where none is asked for: its columns over half the circle, up to
 ## a power of two.
 static func automatic_size(panorama: Texture2D) -> int:
@@ -92,9 +97,10 @@ func start(panorama: Texture2D, face_size: int, filter: Filter) -> void:
 		var parameters: Dictionary[StringName, Variant] = {
 			&"finer": finer, &"face_size": level_size
 		}
-		if filter == Filter.GAUSSIAN:
+		if is_round(filter):
 			parameters[&"kernel_variance"] = 3.0 * LEVEL_VARIANCES[filter]
-			_add_level(level_size, GaussianShader, parameters)
+			parameters[&"is_gaussian"] = filter == Filter.GAUSSIAN
+			_add_level(level_size, RoundShader, parameters)
 		else:
 			parameters[&"binomial"] = filter == Filter.BINOMIAL
 			_add_level(level_size, ReduceShader, parameters)
