@@ -19,6 +19,7 @@ import numpy as np  # noqa: E402
 import scipy  # noqa: E402
 import threadpoolctl  # noqa: E402
 
+import checks  # noqa: E402
 import plots  # noqa: E402
 import rivals  # noqa: E402
 from fitter import Fitter, FitterError  # noqa: E402
@@ -124,7 +125,10 @@ def print_summary(summary):
 
 
 def run_rivals(arguments):
-    rows = rivals.compare(Fitter(arguments.build / "liblobelight_fit_c.so"), arguments.quick, print_row)
+    fitter = Fitter(arguments.build / "liblobelight_fit_c.so")
+    for brdf, alpha in rivals.MATERIALS:
+        checks.check(fitter, fitter.slice(brdf, alpha, rivals.direction(50.0, 30.0), 64), rivals.LOBES)
+    rows = rivals.compare(fitter, arguments.quick, print_row)
     summary = summarise(rows)
     print_summary(summary)
     lobe = [row["one_lobe"] for row in rows]
@@ -178,8 +182,14 @@ def run_speed(arguments):
     return {"benchmarks": rows, "two_threads_over_one": scaling}
 
 
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        print(f"lobelight: bench: {message}", file=sys.stderr)
+        sys.exit(2)
+
+
 def main():
-    parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__)
+    parser = Parser(prog="./dev bench", description=__doc__)
     parser.add_argument("--build", required=True, type=Path, help=argparse.SUPPRESS)
     parser.add_argument("--quick", action="store_true", help="two slices and few settings: a minute")
     parser.add_argument("--only", choices=PARTS, help="one part of it")
@@ -200,7 +210,7 @@ def main():
             write(arguments.out / f"{name}.json", json.dumps({"machine": results["machine"], name: results[name]}, indent=1) + "\n")
             if arguments.json:
                 write(arguments.json.absolute(), json.dumps(results, indent=1) + "\n")
-    except (BenchError, FitterError, OSError) as error:
+    except (BenchError, checks.CheckError, FitterError, OSError) as error:
         print(f"lobelight: bench: {error}", file=sys.stderr)
         return 1
     return 0
