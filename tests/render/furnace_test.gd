@@ -39,6 +39,25 @@ func test_mesh_with_the_material(radiance: float, _test_parameters := RADIANCES)
 	await _check(Kit.make_sphere(material, 128), material.table, radiance)
 
 
+func test_coloured_lobes() -> void:
+	var table := Kit.coloured(Kit.make_odd_table(6, Vector2i(7, 4), Vector2(0.1, 0.3)))
+	_view.add_child(SphereImpostor.make(table))
+	_environment.panorama = Kit.constant(1.0)
+	await _environment.rebuild()
+	var image: Image = await _view.capture()
+	for x in range(4, SIDE - 4, 2):
+		var normal := Kit.sphere_normal(x, MIDDLE + 7, SIDE)
+		var view := Kit.sphere_frame(normal).transposed() * Vector3.BACK
+		var expected := Color(0, 0, 0)
+		for lobe in table.lobes_at(view):
+			var tint: Color = lobe["tint"]
+			expected += tint * (lobe["weight"] as float)
+		var got := image.get_pixel(x, MIDDLE + 7)
+		assert_float(got.r).is_equal_approx(expected.r, TOLERANCE)
+		assert_float(got.g).is_equal_approx(expected.g, TOLERANCE)
+		assert_float(got.b).is_equal_approx(expected.b, TOLERANCE)
+
+
 func test_small_and_large_radiance() -> void:
 	_view.add_child(SphereImpostor.make(LobeTable.make_single_lobe()))
 	# What is darker, Compatibility's frame buffer drops.

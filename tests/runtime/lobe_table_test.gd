@@ -172,6 +172,29 @@ func test_lookup_hits_texel_centres() -> void:
 	assert_float(0.5 * PI * lookup.z + lookup.w).is_equal_approx(3.5 / 12.0, 1e-6)
 
 
+func test_second_texels_colour_the_lobes() -> void:
+	var table := _make_table(2, Vector2i(4, 3), Vector2(0.1, 0.2))
+	var plain := table.lobes_at(Vector3(0.3, 0.2, 0.8).normalized())
+	assert_bool(table.has_second_texels()).is_false()
+	var image := Image.create_empty(4, 12, false, Image.FORMAT_RGBAH)
+	image.blit_rect(table.image, Rect2i(0, 0, 4, 6), Vector2i.ZERO)
+	for y in range(6, 12):
+		for x in 4:
+			image.set_pixel(x, y, Color(0.0, 0.0, 0.5, 0.25 if y < 9 else 2.0))
+	table.image = image
+	assert_str(table.get_problem()).is_empty()
+	assert_bool(table.has_second_texels()).is_true()
+	assert_float(table.get_lookup().w).is_equal_approx(0.5 / 12.0, 1e-6)
+	var lobes := table.lobes_at(Vector3(0.3, 0.2, 0.8).normalized())
+	for k in 2:
+		assert_vector(lobes[k]["mean"]).is_equal(plain[k]["mean"])
+		assert_float(lobes[k]["weight"]).is_equal(plain[k]["weight"])
+	assert_that(lobes[0]["tint"]).is_equal(Color(0.5, 2.25, 0.25))
+	assert_that(lobes[1]["tint"]).is_equal(Color(0.5, 0.5, 2.0))
+	var listed: Array = table.to_json_dictionary()["directions"][0]["lobes"]
+	assert_array(listed[1]["tint"]).is_equal([0.5, 0.5, 2.0])
+
+
 func test_json_dictionary() -> void:
 	var table := _make_table(3, Vector2i(5, 4), Vector2(0.1, 0.4))
 	var parsed: Dictionary = JSON.parse_string(

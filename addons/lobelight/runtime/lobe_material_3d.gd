@@ -124,6 +124,8 @@ func get_shader_code() -> String:
 		code += "#define LOBELIGHT_ISOTROPIC\n"
 	elif anisotropy_rotation != 0.0:
 		code += "#define LOBELIGHT_ANISOTROPY_ROTATION\n"
+	if used.has_second_texels():
+		code += "#define LOBELIGHT_SECOND_TEXELS\n"
 	if albedo_texture != null:
 		code += "#define LOBELIGHT_ALBEDO_TEXTURE\n"
 	if normal_texture != null:

@@ -54,6 +54,10 @@ const MAX_LOBES := 32
 ## [code]k * views.y + p[/code] lobe k of azimuth p. A texel is (slope_x / alpha_x,
 ## slope_y / alpha_y, log2(kappa (o.h)), weight), the slopes being those of the half-vector h
 ## between the view o and the lobe's mean; the weights of a view add up to its albedo.
+## [br][br]
+## Below these rows there may be as many of second texels, (p, q, tint_r, tint_b): p and q are 0 for
+## round lobes, and the weights in red, green and blue are the weight times tint_r,
+## 3 - tint_r - tint_b and tint_b.
 @export var image: Image:
 	set(value):
 		image = value
@@ -129,7 +133,10 @@ func get_problem() -> String:
 	if image == null or image.is_empty():
 		return "The table has no image."
 	var expected := Vector2i(views.x, views.y * lobe_count)
-	if image.get_format() != Image.FORMAT_RGBAH or image.get_size() != expected:
+	if (
+		image.get_format() != Image.FORMAT_RGBAH
+		or image.get_size() not in [expected, expected * Vector2i(1, 2)]
+	):
 		return (
 			"A table of %d lobes and %d x %d views has an image of %d x %d texels in RGBAH."
 			% [lobe_count, views.x, views.y, expected.x, expected.y]
@@ -140,6 +147,11 @@ func get_problem() -> String:
 ## Whether the table is of a BRDF that looks the same from all azimuths.
 func is_isotropic() -> bool:
 	return views.y <= 1
+
+
+## Whether the lobes have second texels, which colour them.
+func has_second_texels() -> bool:
+	return image != null and image.get_height() == 2 * views.y * lobe_count
 
 
 ## The lobes as the shader's texture; [code]null[/code] while the table is incomplete.
@@ -153,7 +165,7 @@ func get_texture() -> Texture2D:
 ## the v of lobe 0.
 func get_lookup() -> Vector4:
 	var u_scale := (views.x - 1) / (MAX_VIEW_ANGLE * views.x)
-	var height := views.y * lobe_count
+	var height := views.y * lobe_count * (2 if has_second_texels() else 1)
 	var v_scale := (views.y - 1) / (0.5 * PI * height)
 	return Vector4(u_scale, 0.5 / views.x, v_scale, 0.5 / height)
 
@@ -168,6 +180,8 @@ func get_view(elevation: int, azimuth: int) -> Vector3:
 ## The lobes for a view direction in tangent space, interpolated as the shader does it: an array of
 ## [code]{"weight": float, "mean": Vector3, "kappa": float}[/code]. The slice at a direction i is
 ## the sum of weight · kappa / (2π (1 − exp(−2 kappa))) · exp(kappa (mean · i − 1)).
+## Lobes of coloured tables also have a [code]"tint": Color[/code] that multiplies the weight in
+## red, green and blue; its mean is 1.
 func lobes_at(view: Vector3) -> Array[Dictionary]:
 	var problem := get_problem()
 	if problem:
@@ -196,7 +210,8 @@ func directional_albedo(view: Vector3) -> float:
 
 ## The table for JSON: [code]{"brdf", "alpha": [x, y], "lobes", "directions": [{"view": [x, y, z],
 ## "lobes": [{"weight", "mean": [x, y, z], "kappa"}]}]}[/code], the directions being the grid's
-## views, elevations running fastest.
+## views, elevations running fastest. Lobes of coloured tables also have
+## [code]"tint": [r, g, b][/code].
 func to_json_dictionary() -> Dictionary:
 	var directions := []
 	for azimuth in views.y:
@@ -205,16 +220,15 @@ func to_json_dictionary() -> Dictionary:
 			var lobes := []
 			for lobe in _decode(view, elevation, azimuth, Transform2D.IDENTITY):
 				var mean: Vector3 = lobe["mean"]
-				(
-					lobes
-					. append(
-						{
-							"weight": lobe["weight"],
-							"mean": [mean.x, mean.y, mean.z],
-							"kappa": lobe["kappa"],
-						}
-					)
-				)
+				var listed := {
+					"weight": lobe["weight"],
+					"mean": [mean.x, mean.y, mean.z],
+					"kappa": lobe["kappa"],
+				}
+				if lobe.has("tint"):
+					var tint: Color = lobe["tint"]
+					listed["tint"] = [tint.r, tint.g, tint.b]
+				lobes.append(listed)
 			directions.append({"view": [view.x, view.y, view.z], "lobes": lobes})
 	return {
 		"brdf": brdf,
@@ -234,6 +248,11 @@ func _decode(view: Vector3, column: float, row: float, placement: Transform2D) -
 		var cosine := maxf(view.dot(half_vector), 1e-4)
 		var mean := 2.0 * cosine * half_vector - view
 		lobes.append({"weight": texel.a, "mean": mean, "kappa": pow(2.0, texel.b) / cosine})
+		if has_second_texels():
+			# The second texels begin where those of one lobe more would.
+			var second := _interpolate(lobe_count + k, column, row)
+			var green := maxf(0.0, 3.0 - second.b - second.a)
+			lobes.back()["tint"] = Color(second.b, green, second.a)
 	return lobes
 
 

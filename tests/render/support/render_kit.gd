@@ -57,6 +57,21 @@ static func make_odd_table(
 	return table
 
 
+## The table with a colour for each lobe and view.
+static func coloured(table: LobeTable) -> LobeTable:
+	var random := RandomNumberGenerator.new()
+	random.seed = 9
+	var size := table.image.get_size()
+	var image := Image.create_empty(size.x, 2 * size.y, false, Image.FORMAT_RGBAH)
+	image.blit_rect(table.image, Rect2i(Vector2i.ZERO, size), Vector2i.ZERO)
+	for y in size.y:
+		for x in size.x:
+			var red := random.randf_range(0.0, 2.0)
+			image.set_pixel(x, size.y + y, Color(0.0, 0.0, red, random.randf_range(0.0, 3.0 - red)))
+	table.image = image
+	return table
+
+
 ## The mean cosine of a spherical Gaussian, coth(kappa) - 1/kappa: what it leaves of the slope of a
 ## radiance that is linear in the direction.
 static func mean_cosine(kappa: float) -> float:
