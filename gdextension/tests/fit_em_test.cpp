@@ -231,6 +231,25 @@ TEST_CASE("Starts without direction and sums without bound are refused") {
   CHECK_THROWS_AS(initial_guess(huge, 1), std::invalid_argument);
 }
 
+TEST_CASE("The cap on sharpness is above what the narrowest slices ask of one lobe") {
+  // The slice of Ward at alpha 1e-4 has the variances 2 α² along the plane of incidence and
+  // 2 α² cos² θ across it: one lobe for all of it has κ = 1/(α² (1 + cos² θ)).
+  const auto brdf = make_brdf("ward", {1e-4, 1e-4});
+  for (const double degrees : {0.0, 60.0, 89.4}) {
+    CAPTURE(degrees);
+    const double angle = degrees * testing::kPi / 180.0;
+    const double cosine = std::cos(angle);
+    const Slice slice = sample_slice(*brdf, {std::sin(angle), 0.0, cosine});
+    const EmResult one = run_em(slice, initial_guess(slice, 1));
+    check_finite(one, slice.albedo);
+    CHECK(one.mixture[0].gaussian.kappa ==
+          doctest::Approx(1e8 / (1.0 + cosine * cosine)).epsilon(0.02));
+    CHECK(one.mixture[0].gaussian.kappa < EmOptions().kappa_max);
+    const EmResult many = run_em(slice, initial_guess(slice, 32));
+    check_finite(many, slice.albedo);
+  }
+}
+
 TEST_CASE("Tied lobes stay mirror images to the last bit, and their likelihood never falls") {
   const Slice slice = sample_slice(*make_brdf("ward", {0.1, 0.3}), {0.0, 0.0, 1.0}, 32);
   for (const int lobes : {1, 5, 8}) {
