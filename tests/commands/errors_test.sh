@@ -126,6 +126,9 @@ refuses "demo, an unknown option" "--colour" demo --colour red
 refuses "demo, an environment that does not exist" "--env" demo --env 17
 refuses "demo, an unknown renderer" "vulkan9" demo --renderer vulkan9
 refuses "test, an unknown group" "no-such-group" test no-such-group
+refuses "stability, an unknown option" "--colour" stability --colour red
+refuses "stability, an unknown group" "no-such-group" stability --group no-such-group
+refuses "stability, JSON in a missing folder" "missing/cases.json" stability --quick --json missing/cases.json
 refuses "an unknown command" "no-such-command" no-such-command
 refuses "a command that comes later" "not available yet" report
 

@@ -1,8 +1,8 @@
 """Directional albedo E(o) = integral of rho(i, o) i_z di by a quadrature that shares nothing with the library.
 
 In the half-vector's slopes s = (h_x, h_y)/h_z the incoming direction is above the horizon exactly in a disc: with
-h ~ (s, 1), i_z = 2 (o.h) h_z - o_z = (2 o_xy.s + o_z - o_z |s|^2) / (1 + |s|^2). So the domain is known, and nothing has
-to be found by sampling. With di = 4 (o.h) h_z^3 ds and slopes (alpha_x r cos a, alpha_y r sin a):
+h ~ (s, 1), i_z = 2 (o.h) h_z - o_z = (2 o_xy.s + o_z - o_z |s|^2) / (1 + |s|^2). So the domain is known, and nothing
+has to be found by sampling. With di = 4 (o.h) h_z^3 ds and slopes (alpha_x r cos a, alpha_y r sin a):
 
 Ward          rho i_z di = exp(-r^2)/pi r dr da . sqrt(i_z/o_z) (o.h) h_z^3
 bounded Ward  rho i_z di = exp(-r^2)/pi r dr da . 2 i_z / (i_z + o_z)

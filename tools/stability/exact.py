@@ -181,9 +181,7 @@ def level(variance, d, s2_over_4, c, alike):
 
 def prepare(mixture):
     """Factors, means and sharpnesses; the directions' rounding to double is taken off."""
-    return [
-        (mpf(w) * mp.exp(log_normalisation(mpf(k))), normalised(vector(m)), mpf(k)) for w, m, k in mixture
-    ]
+    return [(mpf(w) * mp.exp(log_normalisation(mpf(k))), normalised(vector(m)), mpf(k)) for w, m, k in mixture]
 
 
 def log_likelihood(nodes, mixture):

@@ -16,7 +16,8 @@ import threading
 import time
 from pathlib import Path
 
-import judge
+from judge import judge
+from verdict import Verdict, is_finite
 
 GROUPS = ("gaussian", "brdf", "step", "slice", "data", "shader", "table")
 # Seconds without a line after which a group counts as hanging: the longest case takes about one on an idle core.
@@ -42,7 +43,7 @@ class Progress:
 
 def broken(group, reason):
     """A case for a group that did not run to its end."""
-    verdict = judge.Verdict({"name": f"{group}, the whole group"}, group)
+    verdict = Verdict({"name": f"{group}, the whole group"}, group)
     verdict.require(False, reason)
     return verdict.done()
 
@@ -77,7 +78,7 @@ def run_group(tool, group, quick, progress):
                 if count is None:
                     count = record["cases"]
                     continue
-                results += judge.judge(group, record)
+                results += judge(group, record)
                 done += 1
                 progress.show(group, done, count)
             status = process.wait(timeout=SILENCE)
@@ -99,7 +100,7 @@ def strict(value):
         return {key: strict(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
         return [strict(item) for item in value]
-    return value if judge.is_finite(value) else None
+    return value if is_finite(value) else None
 
 
 def write_whole(path, text):

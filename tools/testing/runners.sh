@@ -34,6 +34,12 @@ run_cpp() {
   judge cpp --junit "$RESULTS/cpp.xml"
 }
 
+# The reduced set of ./dev stability.
+run_stability() {
+  run_logged stability in_time bash "$ROOT/tools/commands/stability.sh" --quick
+  judge stability
+}
+
 # run_suites NAME FOLDER ENGINE…: the suites of a folder; ENGINE is how the engine is called.
 run_suites() {
   local name=$1 folder=$2
