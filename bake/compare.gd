@@ -73,7 +73,9 @@ func _read_arguments() -> void:
 	if not (_stage.toral_coverage > 0.0 and _stage.toral_coverage < 1.0):
 		_arguments.fail("--coverage must be between 0 and 1, not %s." % _arguments.text("coverage"))
 	var views := _arguments.numbers("views", 2, [0.0, 0.0])
-	_stage.toral_views = Vector2i(roundi(views[0]), roundi(views[1]))
+	_stage.toral_views = Vector2i(int(views[0]), int(views[1]))
+	if Vector2(_stage.toral_views) != Vector2(views[0], views[1]):
+		_arguments.fail("--views takes whole numbers, not %s." % _arguments.text("views"))
 	_arguments.required("out")
 	_out = _arguments.path("out")
 	for method in _names:

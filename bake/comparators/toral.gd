@@ -5,10 +5,11 @@ extends ComparisonMethod
 
 const ComparisonSphere := preload("comparison_sphere.gd")
 const DualParaboloidMap := preload("dual_paraboloid_map.gd")
-## Views where the command says nothing: elevations × azimuths of one quadrant. More of them change
-## little, because lobes that are fitted for themselves jump from one view to the next.
+## Views where the command says nothing: elevations × azimuths of one quadrant. The thesis does not
+## give them. Twice as many isotropic ones are no better; of the others, 16 × 8 are 7 dB worse at
+## (0.05, 0.2), 96 × 48 are 0.7 dB better.
 const ISOTROPIC_VIEWS := Vector2i(64, 1)
-const ANISOTROPIC_VIEWS := Vector2i(32, 16)
+const ANISOTROPIC_VIEWS := Vector2i(64, 32)
 
 var lobes: int
 var coverage: float

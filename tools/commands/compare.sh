@@ -16,7 +16,7 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
 --samples N     of the reference, a pixel
 --timing-rounds N   GPU times of every method, in turns (default 15); 0 measures none
 --coverage C    of toral: the share of a lobe that its texels cover (default 0.47)
---views T,P     of toral: fitted views, elevations and azimuths (default 64,1 or 32,16)
+--views T,P     of toral: fitted views, elevations and azimuths (default 64,1 or 64,32)
 --bias B        of fis: added to the published level (default 0)
 --json FILE     writes metrics.json there too
 

@@ -35,6 +35,8 @@ GAMMA = 1 / 2.2
 MIDDLE_GREY = 0.18
 MASK_RADIUS_SQUARED = 0.9995
 DIFFERENCE_GAIN = 4
+# Captions need this much room; smaller pictures are enlarged on the sheet.
+LEAST_COLUMN = 192
 
 
 class MetricError(Exception):
@@ -129,7 +131,8 @@ def number(value, digits):
 
 def draw_sheet(path, title, columns):
     """columns: (caption, top picture, bottom picture), each picture (size, size, 3) uint8."""
-    size = columns[0][1].shape[0]
+    scale = -(-LEAST_COLUMN // columns[0][1].shape[0])
+    size = columns[0][1].shape[0] * scale
     font = ImageFont.load_default(size=max(11, size // 20))
     line = int(font.size * 1.35)
     sheet = Image.new(
@@ -140,8 +143,9 @@ def draw_sheet(path, title, columns):
     for index, (caption, top, bottom) in enumerate(columns):
         left = 4 + index * (size + 4)
         draw.multiline_text((left + 2, 3 + line), caption, font=font, fill=(200, 200, 205))
-        sheet.paste(Image.fromarray(top), (left, 3 * line + 4))
-        sheet.paste(Image.fromarray(bottom), (left, 3 * line + 8 + size))
+        for picture, upper in ((top, 3 * line + 4), (bottom, 3 * line + 8 + size)):
+            shown = Image.fromarray(picture).resize((size, size), Image.Resampling.NEAREST)
+            sheet.paste(shown, (left, upper))
     write_atomically(path, sheet.save)
 
 
