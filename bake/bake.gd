@@ -43,16 +43,15 @@ func _recipe() -> Dictionary:
 	var recipe := {}
 	if _arguments.has("recipe"):
 		recipe = _read_recipe(_arguments.path("recipe"))
-	for option: String in ["brdf", "method"]:
-		if _arguments.has(option):
-			recipe[option] = _arguments.text(option)
-	if _is_measured(recipe) and (recipe["brdf"] as String).is_relative_path():
-		# On the command line from where the user is, in a recipe from where the recipe is.
-		recipe["brdf"] = (
-			_arguments.path("brdf")
-			if _arguments.has("brdf")
-			else _arguments.path("recipe").get_base_dir().path_join(recipe["brdf"])
-		)
+	if _arguments.has("method"):
+		recipe["method"] = _arguments.text("method")
+	var measured: bool = recipe.get("brdf") is String and CommandLine.is_measured(recipe["brdf"])
+	if measured and (recipe["brdf"] as String).is_relative_path():
+		# A recipe's files lie where the recipe lies.
+		recipe["brdf"] = _arguments.path("recipe").get_base_dir().path_join(recipe["brdf"])
+	if _arguments.has("brdf"):
+		recipe["brdf"] = _arguments.brdf("brdf")
+		measured = CommandLine.is_measured(recipe["brdf"])
 	for option: String in ["lobes", "seed", "threads"]:
 		if _arguments.has(option):
 			recipe[option] = _arguments.integer(option, 0, -(1 << 31), (1 << 31) - 1)
@@ -61,17 +60,9 @@ func _recipe() -> Dictionary:
 			recipe[option] = Array(_arguments.numbers(option, 2, PackedFloat64Array([0, 0])))
 	for key: String in ["brdf", "alpha", "lobes"]:
 		# The widths of measurements are estimated.
-		if key not in recipe and not (key == "alpha" and _is_measured(recipe)):
+		if key not in recipe and not (key == "alpha" and measured):
 			_arguments.fail("--%s is missing." % key)
 	return recipe
-
-
-## True where the recipe's BRDF is a file: MERL's .binary, RGL's .bsdf, or anything with a folder.
-func _is_measured(recipe: Dictionary) -> bool:
-	var brdf: Variant = recipe.get("brdf")
-	if brdf is not String:
-		return false
-	return (brdf as String).get_extension() in ["binary", "bsdf"] or "/" in brdf or "\\" in brdf
 
 
 func _read_recipe(path: String) -> Dictionary:

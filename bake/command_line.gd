@@ -58,6 +58,16 @@ func path(option: String) -> String:
 	return OS.get_environment("LOBELIGHT_CWD").path_join(given).simplify_path()
 
 
+## The option as a BRDF: a model's name, or the absolute path of a file of measurements.
+func brdf(option: String) -> String:
+	return path(option) if is_measured(text(option)) else text(option)
+
+
+## True where a BRDF is a file: MERL's .binary, RGL's .bsdf, or anything with a folder.
+static func is_measured(name: String) -> bool:
+	return name.get_extension() in ["binary", "bsdf"] or "/" in name or "\\" in name
+
+
 ## The option as a whole number in a range; an error names the option where it is not one.
 func integer(option: String, default: int, low: int, high: int) -> int:
 	if option not in _values:

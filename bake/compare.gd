@@ -59,7 +59,8 @@ func _run() -> void:
 
 func _read_arguments() -> void:
 	_arguments.required("env")
-	_brdf = _arguments.required("brdf")
+	_arguments.required("brdf")
+	_brdf = _arguments.brdf("brdf")
 	_alpha = _arguments.numbers("alpha", 2, PackedFloat64Array())
 	_arguments.required("alpha")
 	_names = _arguments.required("methods").split(",", false)

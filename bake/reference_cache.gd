@@ -25,6 +25,8 @@ static func render(options: Dictionary, tree: SceneTree) -> Dictionary:
 
 static func _key(options: Dictionary) -> String:
 	var parts: Array = [options, FileAccess.get_md5(options["env"])]
+	if FileAccess.file_exists(options["brdf"]):
+		parts.append(FileAccess.get_md5(options["brdf"]))
 	for library in DirAccess.get_files_at(LIBRARY_FOLDER):
 		parts.append(FileAccess.get_md5(LIBRARY_FOLDER.path_join(library)))
 	return str(parts).md5_text()

@@ -87,6 +87,51 @@ Panorama rough_panorama(int width, int height) {
   return panorama;
 }
 
+// A model with a colour that changes with the light's height.
+class Coloured final : public Brdf {
+ public:
+  Coloured() : Brdf({0.4, 0.4}), model_(make_brdf("ggx", {0.4, 0.4})) {}
+  glm::dvec3 evaluate_rgb(const glm::dvec3& i, const glm::dvec3& o) const override {
+    return glm::dvec3(0.9, 0.6 * i.z, 0.3 * (1.0 - i.z)) * model_->evaluate(i, o);
+  }
+  double evaluate(const glm::dvec3& i, const glm::dvec3& o) const override {
+    const glm::dvec3 rgb = evaluate_rgb(i, o);
+    return (rgb.x + rgb.y + rgb.z) / 3.0;
+  }
+  std::optional<BrdfSample> sample(const glm::dvec3& o, const glm::dvec2& u) const override {
+    auto drawn = model_->sample(o, u);
+    if (drawn) drawn->weight = evaluate(drawn->direction, o) * drawn->direction.z / drawn->pdf;
+    return drawn;
+  }
+  double pdf(const glm::dvec3& i, const glm::dvec3& o) const override { return model_->pdf(i, o); }
+  std::string_view name() const override { return "coloured"; }
+  bool is_coloured() const override { return true; }
+
+ private:
+  std::unique_ptr<Brdf> model_;
+};
+
+TEST_CASE("Integrator: a coloured material reflects each channel by itself") {
+  const SurfaceFrame frame = oblique_frame();
+  const Panorama constant{8, 4, std::vector<float>(96, 2.5f)};
+  const Coloured brdf;
+  const glm::dvec3 o = view_at(0.9, 0.7);
+  glm::dvec3 albedo(0.0);
+  constexpr int kSteps = 400;
+  for (int j = 0; j < kSteps; ++j) {
+    for (int k = 0; k < 2 * kSteps; ++k) {
+      const double z = (j + 0.5) / kSteps;
+      const glm::dvec3 i = view_at(std::acos(z), kPi * (k + 0.5) / kSteps);
+      albedo += brdf.evaluate_rgb(i, o) * (z * kPi / (kSteps * kSteps));
+    }
+  }
+  const RadianceEstimate estimate =
+      Integrator(constant, brdf, 1 << 14).integrate(world(o, frame), frame, 1);
+  for (int c = 0; c < 3; ++c) {
+    CHECK(estimate.radiance[c] == doctest::Approx(2.5 * albedo[c]).epsilon(2e-3).scale(0));
+  }
+}
+
 TEST_CASE("Integrator: a rough environment agrees with plain quadrature") {
   const SurfaceFrame frame = oblique_frame();
   const Panorama panorama = rough_panorama(16, 8);

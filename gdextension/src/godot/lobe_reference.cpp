@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "brdf/brdf.h"
+#include "brdf/measured.h"
 #include "godot/convert.h"
 #include "godot/request.h"
 #include "image/panorama.h"
@@ -27,7 +28,9 @@ SphereRequest read_request(const Dictionary& values) {
   SphereRequest sphere;
   sphere.env = request.required_text("env");
   sphere.path = file_system_path(to_godot(sphere.env));
-  sphere.brdf = make_brdf(request.text("brdf", "ward"), request.widths("alpha", {0.1, 0.1}));
+  std::string brdf = request.text("brdf", "ward");
+  if (is_measured_file(brdf)) brdf = file_system_path(to_godot(brdf));
+  sphere.brdf = make_brdf(brdf, request.widths("alpha", {0.1, 0.1}));
   SphereOptions& options = sphere.options;
   options.size = request.integer("size", options.size);
   options.samples = request.integer("samples", options.samples);

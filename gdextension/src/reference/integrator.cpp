@@ -27,6 +27,14 @@ glm::dvec3 to_local(const glm::dvec3& world, const SurfaceFrame& frame) {
           glm::dot(world, frame.normal)};
 }
 
+// The channels' reflectances over their mean, which is what sampling goes by.
+glm::dvec3 tint(const Brdf& brdf, const glm::dvec3& i, const glm::dvec3& o) {
+  if (!brdf.is_coloured()) return glm::dvec3(1.0);
+  const glm::dvec3 rgb = brdf.evaluate_rgb(i, o);
+  const double mean = (rgb.x + rgb.y + rgb.z) / 3.0;
+  return mean > 0.0 ? rgb / mean : glm::dvec3(1.0);
+}
+
 }  // namespace
 
 Integrator::Integrator(const Panorama& panorama, const Brdf& brdf, int samples)
@@ -55,7 +63,8 @@ glm::dvec3 Integrator::batch(const glm::dvec3& o, const SurfaceFrame& frame,
     const auto drawn = brdf_.sample(o, points_.scrambled(k, brdf_seed));
     if (!drawn) continue;
     const EnvironmentSample light = environment_.at(choice, to_world(drawn->direction, frame));
-    sum += light.radiance * (drawn->weight / (1.0 + light.pdf / drawn->pdf));
+    sum += light.radiance * tint(brdf_, drawn->direction, o) *
+           (drawn->weight / (1.0 + light.pdf / drawn->pdf));
   }
   for (std::size_t k = 0; k < points_.size() && !choice.empty(); ++k) {
     const EnvironmentSample light = environment_.sample(choice, points_.scrambled(k, light_seed));
@@ -63,7 +72,7 @@ glm::dvec3 Integrator::batch(const glm::dvec3& o, const SurfaceFrame& frame,
     if (!(i.z > 0.0) || !(light.pdf > 0.0)) continue;
     const double reflected = brdf_.evaluate(i, o) * i.z;
     if (!(reflected > 0.0)) continue;
-    sum += light.radiance * (reflected / (brdf_.pdf(i, o) + light.pdf));
+    sum += light.radiance * tint(brdf_, i, o) * (reflected / (brdf_.pdf(i, o) + light.pdf));
   }
   return sum / static_cast<double>(points_.size());
 }
