@@ -26,7 +26,8 @@ func make_sphere() -> MeshInstance3D:
 	return SphereImpostor.make(table)
 
 
-## One environment fetch and one table fetch a lobe; the fetches are isotropic, so the sampler
-## probes once for each.
+## One environment fetch and one table fetch a lobe, two where lobes have second texels; the fetches
+## are isotropic, so the sampler probes once for each.
 func cost() -> Dictionary:
-	return {"fetches": lobes, "probes": lobes, "table_fetches": lobes}
+	var table_fetches := 2 * lobes if table.has_second_texels() else lobes
+	return {"fetches": lobes, "probes": lobes, "table_fetches": table_fetches}

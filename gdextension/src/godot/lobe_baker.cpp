@@ -95,7 +95,9 @@ double LobeBaker::directional_albedo(const String& brdf, const Vector2& alpha,
     if (!(direction.z > 0.0) || !std::isfinite(length)) {
       throw std::invalid_argument("view must point above the horizon: its z must be positive.");
     }
-    const std::unique_ptr<Brdf> model = make_brdf(to_std(brdf), {alpha.x, alpha.y});
+    const std::string given = to_std(brdf);
+    const std::unique_ptr<Brdf> model =
+        make_brdf(is_measured_file(given) ? file_system_path(brdf) : given, {alpha.x, alpha.y});
     return sample_slice(*model, direction / length).albedo;
   } catch (const std::exception& error) {
     UtilityFunctions::push_error(to_godot(error.what()));
