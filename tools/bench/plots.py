@@ -51,13 +51,13 @@ def curve(rows, path):
 
 
 def speed(rows, path):
-    """Time of a table against lobes, views and nodes, with one and two threads."""
+    """Processor time of a table, all threads together, against lobes, views and nodes."""
     tables = {}
     for row in rows:
         if row["name"].startswith("table/"):
             fields = dict(part.split(":") for part in row["name"].split("/") if ":" in part)
             key = tuple(int(fields[name]) for name in ("lobes", "elevations", "azimuths", "nodes", "threads"))
-            tables[key] = row["real_time"]
+            tables[key] = row["cpu_time"]
     panels = {
         "lobes": ([key for key in tables if key[1:4] == (16, 8, 64)], lambda key: key[0]),
         "views": ([key for key in tables if key[0] == 8 and key[3] == 64], lambda key: key[1] * key[2]),
@@ -70,6 +70,6 @@ def speed(rows, path):
             axis.plot(*zip(*line) if line else ([], []), "o-", label=f"{threads} thread{'s' if threads > 1 else ''}")
         axis.set_xlabel(title)
         axis.set_ylim(bottom=0.0)
-    axes[0].set_ylabel("time of a Ward (0.05, 0.2) table, ms")
+    axes[0].set_ylabel("processor time of a Ward (0.05, 0.2) table, ms")
     axes[0].legend()
     save(figure, path)
