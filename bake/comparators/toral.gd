@@ -59,7 +59,7 @@ func make_sphere() -> MeshInstance3D:
 	if table.is_isotropic():
 		defines.append("TORAL_ISOTROPIC")
 	var last := Vector2(table.views - Vector2i.ONE)
-	var per_radian := last / Vector2(LobeTable.MAX_VIEW_ANGLE, 0.5 * PI)
+	var per_radian := Vector2(1.0 / LobeTable.MAX_VIEW_ANGLE, last.y / (0.5 * PI))
 	# Eq. 2.9 to 2.12 without what depends on the lobe; the map has w = h = side.
 	var texels := float(_map.side * _map.side) / (4.0 * _map.SCALE_FACTOR * _map.SCALE_FACTOR)
 	var level := 0.5 * log(-TAU * log(1.0 - coverage) * texels) / log(2.0)

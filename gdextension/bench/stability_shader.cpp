@@ -101,7 +101,9 @@ glm::vec2 shader_table_position(const LobeTable& table, const glm::vec3& o) {
   // texel's centre, which is taken off again here.
   const glm::vec2 last(table.views() - 1);
   const float elevation = std::atan2(glm::length(glm::vec2(o)), o.z);
-  const float column = elevation * (last.x / static_cast<float>(LobeTable::kMaxElevation));
+  const float rest =
+      std::max(1.0f - elevation * (1.0f / static_cast<float>(LobeTable::kMaxElevation)), 0.0f);
+  const float column = (1.0f - std::sqrt(rest)) * last.x;
   if (table.is_isotropic()) return {column, 0.0f};
   const float azimuth = std::atan2(std::abs(o.y), std::max(std::abs(o.x), 1e-6f));
   return {column, azimuth * (last.y / kHalfPi)};

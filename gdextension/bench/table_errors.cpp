@@ -24,10 +24,11 @@ double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture) {
   return 2.0 * sum / slice.albedo;
 }
 
-// View (t, p) of the table's grid for real t and p.
-glm::dvec3 view_at(const LobeTable& table, double t, double p) {
-  const double elevation = LobeTable::kMaxElevation * t / (table.views().x - 1);
-  const double azimuth = table.is_isotropic() ? 0.0 : kHalfPi * p / (table.views().y - 1);
+// Half-way in elevation and azimuth between view (t, p) and the next of each, whatever the spacing.
+glm::dvec3 view_between(const LobeTable& table, int t, int p) {
+  const double elevation =
+      0.5 * (std::acos(table.view(t, p).z) + std::acos(table.view(t + 1, p).z));
+  const double azimuth = table.is_isotropic() ? 0.0 : kHalfPi * (p + 0.5) / (table.views().y - 1);
   return {std::sin(elevation) * std::cos(azimuth), std::sin(elevation) * std::sin(azimuth),
           std::cos(elevation)};
 }
@@ -41,9 +42,9 @@ TableErrors table_errors(const LobeTable& table, const Brdf& brdf, bool nearest)
     for (int t = 0; t < views.x; ++t) {
       errors.at_views.add(l1_error(brdf, table.view(t, p), table.mixture_at_view(t, p)));
       if (t == views.x - 1 || (p == views.y - 1 && p > 0)) continue;
-      const glm::dvec3 o = view_at(table, t + 0.5, p + 0.5);
+      const glm::dvec3 o = view_between(table, t, p);
       errors.between_views.add(
-          l1_error(brdf, o, table.interpolate(nearest ? view_at(table, t, p) : o)));
+          l1_error(brdf, o, table.interpolate(nearest ? table.view(t, p) : o)));
     }
   }
   return errors;

@@ -46,7 +46,11 @@ TEST_CASE("Views run from the normal to 89.4 degrees and over one quadrant") {
   const LobeTable table({0.1, 0.2}, 2, {5, 3});
   for (int p = 0; p < 3; ++p) {
     for (int t = 0; t < 5; ++t) {
-      const glm::dvec3 wanted = direction(89.4 * kPi / 180.0 * t / 4.0, 0.5 * kPi * p / 2.0);
+      const double rest = 1.0 - t / 4.0;  // what is left to grazing, in columns; squared in angle
+      const double elevation = 89.4 * kPi / 180.0 * (1.0 - rest * rest);
+      const glm::dvec3 wanted = direction(elevation, 0.5 * kPi * p / 2.0);
+      CHECK(table.elevation(t) == doctest::Approx(elevation));
+      CHECK(table.column(elevation) == doctest::Approx(t));
       CHECK(glm::length(table.view(t, p) - wanted) < 1e-15);
     }
   }
@@ -79,7 +83,7 @@ TEST_CASE("Between views the entries are interpolated bilinearly") {
   const LobeTable table = arbitrary_table({5, 4});
   const double t = 2.3;
   const double p = 1.6;
-  const glm::dvec3 o = direction(LobeTable::kMaxElevation * t / 4.0, 0.5 * kPi * p / 3.0);
+  const glm::dvec3 o = direction(table.elevation(t), 0.5 * kPi * p / 3.0);
   const Mixture mixture = table.interpolate(o);
   for (int k = 0; k < table.lobes(); ++k) {
     const LobeTable::Entry wanted =

@@ -9,9 +9,9 @@ extends Resource
 ## [LobeBaker] makes tables in the editor; see [method from_baked].
 ## [br][br]
 ## Directions are unit vectors in tangent space: x along the tangent, z along the normal. The grid
-## has [code]views.x[/code] elevations, from the normal to [constant MAX_VIEW_ANGLE], and
-## [code]views.y[/code] azimuths over one quadrant, the others being its mirror images; a table of
-## one azimuth is isotropic.
+## has [code]views.x[/code] elevations, from the normal to [constant MAX_VIEW_ANGLE] and denser
+## towards it, and [code]views.y[/code] azimuths over one quadrant, the others being its mirror
+## images; a table of one azimuth is isotropic.
 
 ## The angle between the normal and the last view of the grid, in radians. Beyond it Ward's albedo
 ## diverges; views beyond it are taken for it.
@@ -161,18 +161,25 @@ func get_texture() -> Texture2D:
 	return _texture
 
 
-## (scale, offset) from a view's elevation in radians to the texture's u, then from its azimuth to
-## the v of lobe 0.
+## (scale, offset) from a view's column, in [0, 1], to the texture's u, then from its azimuth in
+## radians to the v of lobe 0.
 func get_lookup() -> Vector4:
-	var u_scale := (views.x - 1) / (MAX_VIEW_ANGLE * views.x)
+	var u_scale := float(views.x - 1) / views.x
 	var height := views.y * lobe_count * (2 if has_second_texels() else 1)
 	var v_scale := (views.y - 1) / (0.5 * PI * height)
 	return Vector4(u_scale, 0.5 / views.x, v_scale, 0.5 / height)
 
 
+## The column of an elevation in radians, from 0 to [code]views.x - 1[/code]; whole numbers are views
+## of the grid.
+func get_column(elevation: float) -> float:
+	return (1.0 - sqrt(maxf(1.0 - elevation / MAX_VIEW_ANGLE, 0.0))) * (views.x - 1)
+
+
 ## The view of the grid at an elevation and an azimuth, counted from 0.
 func get_view(elevation: int, azimuth: int) -> Vector3:
-	var theta := MAX_VIEW_ANGLE * elevation / (views.x - 1)
+	var rest := 1.0 - float(elevation) / (views.x - 1)
+	var theta := MAX_VIEW_ANGLE * (1.0 - rest * rest)
 	var phi := 0.0 if is_isotropic() else 0.5 * PI * azimuth / (views.y - 1)
 	return Vector3(sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta))
 
@@ -189,7 +196,7 @@ func lobes_at(view: Vector3) -> Array[Dictionary]:
 		return []
 	var clamped := Vector3(view.x, view.y, maxf(view.z, cos(MAX_VIEW_ANGLE))).normalized()
 	var side := Vector2(clamped.x, clamped.y)
-	var column := atan2(side.length(), clamped.z) / MAX_VIEW_ANGLE * (views.x - 1)
+	var column := get_column(atan2(side.length(), clamped.z))
 	if is_isotropic():
 		# The table has the view in the x-z plane.
 		var turn := side.angle() if side.length() > 1e-5 else 0.0

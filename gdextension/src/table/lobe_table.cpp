@@ -59,14 +59,24 @@ LobeTable::LobeTable(const glm::dvec2& alpha, int lobes, const glm::ivec2& views
   entries_.assign(index(lobes_, 0, 0), Entry(0.0));
 }
 
+double LobeTable::elevation(double t) const {
+  const double rest = 1.0 - t / (views_.x - 1);
+  return kMaxElevation * (1.0 - rest * rest);
+}
+
+double LobeTable::column(double elevation) const {
+  const double rest = std::clamp(1.0 - elevation / kMaxElevation, 0.0, 1.0);
+  return (1.0 - std::sqrt(rest)) * (views_.x - 1);
+}
+
 glm::dvec3 LobeTable::view(int t, int p) const {
-  const double elevation = kMaxElevation * t / (views_.x - 1);
-  const double sine = std::sin(elevation);
+  const double angle = elevation(t);
+  const double sine = std::sin(angle);
   // The ends of the quadrant lie exactly in the planes of symmetry.
-  if (p == 0) return {sine, 0.0, std::cos(elevation)};
-  if (p == views_.y - 1) return {0.0, sine, std::cos(elevation)};
+  if (p == 0) return {sine, 0.0, std::cos(angle)};
+  if (p == views_.y - 1) return {0.0, sine, std::cos(angle)};
   const double azimuth = kHalfPi * p / (views_.y - 1);
-  return {sine * std::cos(azimuth), sine * std::sin(azimuth), std::cos(elevation)};
+  return {sine * std::cos(azimuth), sine * std::sin(azimuth), std::cos(angle)};
 }
 
 Mixture LobeTable::mixture_at_view(int t, int p) const {
@@ -134,7 +144,7 @@ LobeTable::Place LobeTable::locate_view(const glm::dvec3& direction) const {
       glm::normalize(glm::dvec3(direction.x, direction.y, std::max(direction.z, kLeastCosine)));
   const double sine = std::hypot(o.x, o.y);
   Place place;
-  place.t = locate(std::atan2(sine, o.z) / kMaxElevation * (views_.x - 1), views_.x);
+  place.t = locate(column(std::atan2(sine, o.z)), views_.x);
 
   // The frame in which the entries hold: table axes (x, y) = ±(o.x, o.y) as signs, or o's
   // projection.

@@ -11,8 +11,10 @@ namespace lobelight {
 // The lobes of a BRDF over the view direction, stored by half-vector: in these coordinates lobes
 // hardly move with the view, so neighbouring views can be interpolated.
 //
-// Views: elevation θ_t = t / (T − 1) · kMaxElevation from the normal, t = 0 … T − 1; azimuth
-// φ_p = p / (P − 1) · 90°, p = 0 … P − 1. P = 1 is an isotropic table, its views in the half-plane
+// Views: elevation from the normal
+//   θ_t = (1 − (1 − τ)²) · kMaxElevation,  τ = t / (T − 1),  t = 0 … T − 1,
+// denser towards grazing, where slices change faster; azimuth φ_p = p / (P − 1) · 90°,
+// p = 0 … P − 1. P = 1 is an isotropic table, its views in the half-plane
 // y = 0, x ≥ 0.
 class LobeTable {
  public:
@@ -39,6 +41,10 @@ class LobeTable {
   int lobes() const { return lobes_; }
   const glm::ivec2& views() const { return views_; }
   bool is_isotropic() const { return views_.y == 1; }
+
+  // The elevation of column t, and its inverse: the real column in [0, T − 1] of an elevation.
+  double elevation(double t) const;
+  double column(double elevation) const;
 
   // Unit vector of view (t, p).
   glm::dvec3 view(int t, int p) const;
