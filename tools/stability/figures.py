@@ -79,7 +79,7 @@ def panels(path, title, cases, row, column, value, axis_labels, logarithmic, key
     bar.outline.set_visible(False)
     figure.suptitle(title, fontsize=10)
     temporary = path.with_suffix(".tmp.png")
-    figure.savefig(temporary, dpi=150, metadata={"Software": None})
+    figure.savefig(temporary, dpi=130, metadata={"Software": None})
     plt.close(figure)
     temporary.replace(path)
 
@@ -167,7 +167,7 @@ def draw(results, folder):
     gaussians = [case for case in results if case["group"] == "gaussian" and 1e-8 <= case["kappa"] <= 1e10]
     add(
         "gaussian.png",
-        "Spherical Gaussians: error against 50 digits over κ",
+        "Spherical Gaussians: error against 50 digits over κ (samples: in standard deviations, else relative)",
         gaussians,
         value=lambda case: max(case["error"], 1e-18),
         row=lambda case: case["function"],

@@ -1,4 +1,4 @@
-"""The report of ./dev stability: cases.csv, README.md and heat maps, written to a folder as a whole."""
+"""The report of ./dev stability: worst.csv, README.md and heat maps, written to a folder as a whole."""
 
 import csv
 import io
@@ -21,22 +21,23 @@ GROUP_TITLES = {
     "storage byte": "Tables as bytes (slope/α in [−4, 4])",
     "look-up": "Looking up between views",
 }
+# Of each group, BRDF and alpha (or function): how many cases, and the worst of each figure. --json has every case.
 COLUMNS = (
-    "name",
     "group",
-    "passed",
-    "finite",
-    "within_energy_bound",
-    "energy_error",
-    "energy_bound",
+    "subject",
+    "alpha",
+    "lobes",
+    "cases",
+    "failed",
     "error",
     "error_bound",
     "unit",
+    "energy_error",
+    "energy_bound",
     "iterations",
     "fit_error",
     "standard_deviations",
     "beyond_range",
-    "reason",
 )
 
 
@@ -98,7 +99,7 @@ def limits(results):
             )
     if beyond:
         sentences.append(
-            f"Bytes clamp slopes at 4 α: at most {number(100 * beyond['beyond_range'])} % of a view's energy is in"
+            f"Bytes clamp slopes at 4 α: at most {100 * beyond['beyond_range']:.0f} % of a view's energy is in"
             f" lobes beyond ({beyond['name']}); these are not counted above."
         )
     sentences.append(f"{capped} of {len(fits)} fits of eight lobes stop at the limit of iterations.")
@@ -110,8 +111,9 @@ def readme(results, pictures):
     lines = [
         "# Stability",
         "",
-        "Written by `./dev stability`; every case is a row of [cases.csv](cases.csv). Errors are the worst of a group"
-        " relative to their bound; energies are relative to the directional albedo.",
+        "Written by `./dev stability`; the worst of each material is a row of [worst.csv](worst.csv), and `--json FILE`"
+        " writes every case. Errors are the worst of a group relative to their bound; energies are relative to the"
+        " directional albedo.",
         "",
         f"**{len(results) - len(failed)} cases passed, {len(failed)} failed.**",
         "",
@@ -127,22 +129,32 @@ def readme(results, pictures):
     return "\n".join(lines) + "\n"
 
 
-def cases_csv(results):
+def worst_csv(results):
+    groups = defaultdict(list)
+    for case in results:
+        alpha = " ".join(f"{width:g}" for width in case.get("alpha", []))
+        subject = case.get("brdf") or case.get("function", "")
+        groups[case["group"], subject, alpha, case.get("lobes", "")].append(case)
     text = io.StringIO()
-    writer = csv.DictWriter(text, COLUMNS, extrasaction="ignore", lineterminator="\n")
-    writer.writeheader()
-    for result in results:
-        row = {key: (f"{value:.4g}" if isinstance(value, float) else value) for key, value in result.items()}
-        writer.writerow(row)
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for key, cases in groups.items():
+        worst = max(cases, key=lambda case: case["error"] / (case["error_bound"] or math.inf))
+        row = {"cases": len(cases), "failed": sum(not case["passed"] for case in cases), "unit": worst["unit"]}
+        row |= {"error": worst["error"], "error_bound": worst["error_bound"]}
+        for name in COLUMNS[9:]:
+            row[name] = max((case[name] for case in cases if case.get(name) is not None), default="")
+        row |= dict(zip(COLUMNS[:4], key))
+        writer.writerow([f"{row[c]:.3g}" if isinstance(row[c], float) else row[c] for c in COLUMNS])
     return text.getvalue()
 
 
 def write(results, folder):
-    """README.md, cases.csv and the heat maps below `folder`."""
+    """README.md, worst.csv and the heat maps below `folder`."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     pictures = figures.draw(results, folder)
-    for name, text in (("cases.csv", cases_csv(results)), ("README.md", readme(results, pictures))):
+    for name, text in (("worst.csv", worst_csv(results)), ("README.md", readme(results, pictures))):
         temporary = folder / f"{name}.tmp"
         temporary.write_text(text, encoding="utf-8")
         temporary.replace(folder / name)
