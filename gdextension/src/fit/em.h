@@ -28,8 +28,8 @@ namespace lobelight {
 struct EmOptions {
   int max_iterations = 200;
   // Stops when an iteration raises the log-likelihood (mean over the slice's mass, in nats) by less
-  // than this. 1e-6 is where lobes stop to move visibly: tables fitted to 1e-7 have the same error
-  // within 1 % of it. EM without acceleration needs 1e-7 and 200 iterations to come as far.
+  // than this. Accelerated, 1e-6 gets as far as EM alone does with 1e-7 in 200 iterations
+  // (docs/report/bench).
   double tolerance = 1e-6;
   // Steps longer than EM's where they raise the likelihood (fit/em_acceleration.h): a quarter of
   // the iterations. Without, this is EM as in the textbook.
