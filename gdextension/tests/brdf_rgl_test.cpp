@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -165,6 +167,11 @@ TEST_CASE("A file that is not an RGL file is refused by name and reason") {
   };
   refused({}, "ends before the end of a tensor file's header");
   refused(std::vector<char>(100, 'x'), "is not a tensor file");
+
+  file.write({'x'});
+  std::filesystem::resize_file(file.path(), std::uintmax_t{5} << 30);  // sparse
+  CHECK_THROWS_WITH_AS(read_rgl(file.path()), (file.path() + ": is larger than 2 GiB").c_str(),
+                       MeasuredFileError);
 
   const std::vector<char> good = arbitrary_file(kSmall);
   std::vector<char> bytes = good;

@@ -10,6 +10,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Far above any of the databases' files: a sparse file cannot ask for more memory than this.
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 31;
+
 std::string in_brackets(const std::error_code& error) { return " (" + error.message() + ")"; }
 
 }  // namespace
@@ -24,6 +27,7 @@ BinaryFile::BinaryFile(const std::string& path) : path_(path) {
   if (!fs::is_regular_file(status)) fail("is not a regular file");
   size_ = fs::file_size(file, error);
   if (error) fail("cannot be opened" + in_brackets(error));
+  if (size_ > kMaxFileBytes) fail("is larger than 2 GiB");
   errno = 0;
   stream_.open(file, std::ios::binary);
   if (!stream_) fail("cannot be opened" + in_brackets({errno, std::generic_category()}));
