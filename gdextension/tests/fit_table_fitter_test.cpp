@@ -107,6 +107,29 @@ TEST_CASE("Continued tables are as good between views as at them, independent on
   CHECK(errors[1] <= errors[0] + 0.01);
 }
 
+TEST_CASE("Smoothing brings neighbouring views together and costs nothing at the views") {
+  const auto brdf = make_brdf("ward", {0.1, 0.1});
+  Recipe recipe = small_recipe("ward", {0.1, 0.1}, FitMethod::continuation);
+  recipe.lobes = 8;
+  recipe.views = {16, 1};
+  double at[2];
+  double between[2];
+  for (const bool smoothed : {false, true}) {
+    FitOptions options;
+    if (!smoothed) options.smoothing_passes = 0;
+    const LobeTable table = fit(recipe, nullptr, options);
+    at[smoothed] = between[smoothed] = 0.0;
+    for (int t = 0; table.elevation(t + 0.5) < 75.0 * kPi / 180.0; ++t) {
+      at[smoothed] += l1_error(*brdf, table.view(t, 0), table.mixture_at_view(t, 0));
+      const double elevation = table.elevation(t + 0.5);
+      const glm::dvec3 o(std::sin(elevation), 0.0, std::cos(elevation));
+      between[smoothed] = std::max(between[smoothed], l1_error(*brdf, o, table.interpolate(o)));
+    }
+  }
+  CHECK(between[1] < 0.7 * between[0]);
+  CHECK(at[1] < 1.05 * at[0]);
+}
+
 TEST_CASE("Anisotropic tables have no seam where they are mirrored") {
   // The lobes at the planes are mirror images of each other, so the mixture a little to the one
   // side is that a little to the other side.

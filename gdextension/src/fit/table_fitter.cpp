@@ -45,6 +45,10 @@ class TableFit {
         static_cast<std::size_t>(elevations()) * static_cast<std::size_t>(azimuths());
     report_.iterations.assign(views, 0);
     report_.log_likelihood.assign(views, 0.0);
+    fits_ = static_cast<int>(views);
+    if (recipe.method == FitMethod::continuation) {
+      fits_ += options_.smoothing_passes * (elevations() - 2) * azimuths();
+    }
     progress_.set(0.0);
   }
 
@@ -66,10 +70,14 @@ class TableFit {
   void fit_by_continuation();
   void fit_column(int p, const Mixture& pole, const std::vector<Mirror>& pole_mirrors);
 
-  // Fits view (t, p) from `start`, or from Töral's guess when it is empty, and stores the lobes.
-  Mixture fit_view(int t, int p, Mixture start, std::vector<Mirror> mirrors);
+  // Brings the lobes of a column's neighbouring views together (FitOptions::smoothing_passes);
+  // mirrors[t] are the ties of view t.
+  void smooth_column(int p, const std::vector<std::vector<Mirror>>& mirrors);
 
-  void count_finished_view();
+  // Fits view (t, p) from `start`, or from Töral's guess when it is empty, and stores the lobes.
+  Mixture fit_view(int t, int p, Mixture start, std::vector<Mirror> mirrors, int max_iterations);
+
+  void count_fit();
 
   const Recipe& recipe_;
   FitOptions options_;
@@ -80,14 +88,17 @@ class TableFit {
   double rotation_ = 0.0;
   std::mutex finished_mutex_;
   int finished_ = 0;
+  int fits_ = 0;
 };
 
-Mixture TableFit::fit_view(int t, int p, Mixture start, std::vector<Mirror> mirrors) {
+Mixture TableFit::fit_view(int t, int p, Mixture start, std::vector<Mirror> mirrors,
+                           int max_iterations) {
   progress_.throw_if_cancelled();
   const Slice slice = sample_slice(brdf_, table_.view(t, p), options_.nodes_per_axis, rotation_);
   if (start.empty()) start = initial_guess(slice, recipe_.lobes);
   EmOptions em = options_.em;
   em.mirrors = std::move(mirrors);
+  em.max_iterations = max_iterations;
   EmResult result = run_em(slice, std::move(start), em);
   table_.set_mixture_at_view(t, p, result.mixture);
   if (table_.has_second_texels()) {
@@ -96,24 +107,24 @@ Mixture TableFit::fit_view(int t, int p, Mixture start, std::vector<Mirror> mirr
   }
 
   const auto view = static_cast<std::size_t>(p * elevations() + t);
-  report_.iterations[view] = result.iterations;
+  report_.iterations[view] += result.iterations;
   if (!result.log_likelihood.empty()) report_.log_likelihood[view] = result.log_likelihood.back();
   if (view == 0) report_.first_view_curve = result.log_likelihood;
-  count_finished_view();
+  count_fit();
   return std::move(result.mixture);
 }
 
-void TableFit::count_finished_view() {
+void TableFit::count_fit() {
   const std::lock_guard<std::mutex> lock(finished_mutex_);
   ++finished_;
-  progress_.set(static_cast<double>(finished_) / static_cast<double>(report_.iterations.size()));
+  progress_.set(static_cast<double>(finished_) / fits_);
 }
 
 void TableFit::fit_independently() {
   parallel_for(report_.iterations.size(), recipe_.threads, [this](std::size_t view) {
     const int t = static_cast<int>(view) % elevations();
     const int p = static_cast<int>(view) / elevations();
-    fit_view(t, p, {}, {});
+    fit_view(t, p, {}, {}, options_.em.max_iterations);
   });
 }
 
@@ -148,7 +159,7 @@ void TableFit::fit_by_continuation() {
     mirrors.push_back(match_images(start, 1));
     if (azimuths() > 1) mirrors.push_back(match_images(start, 0));
   }
-  const Mixture pole = fit_view(0, 0, std::move(start), mirrors);
+  const Mixture pole = fit_view(0, 0, std::move(start), mirrors, options_.em.max_iterations);
 
   parallel_for(static_cast<std::size_t>(azimuths()), recipe_.threads,
                [&](std::size_t p) { fit_column(static_cast<int>(p), pole, mirrors); });
@@ -162,7 +173,7 @@ void TableFit::fit_column(int p, const Mixture& pole, const std::vector<Mirror>&
       table_.set_channel_weights_at_view(0, p, table_.channel_weights_at_view(0, 0));
     }
     report_.log_likelihood[static_cast<std::size_t>(p * elevations())] = report_.log_likelihood[0];
-    count_finished_view();
+    count_fit();
   }
   // The columns at the ends of the quadrant lie in a plane of symmetry: y = 0 and x = 0.
   std::optional<MovingMirror> mirror;
@@ -170,12 +181,31 @@ void TableFit::fit_column(int p, const Mixture& pole, const std::vector<Mirror>&
     const int column = candidate.axis == 1 ? 0 : azimuths() - 1;
     if (p == column) mirror.emplace(candidate);
   }
+  std::vector<std::vector<Mirror>> mirrors(static_cast<std::size_t>(elevations()));
   Mixture previous = pole;
   for (int t = 1; t < elevations(); ++t) {
     Mixture start = transport(previous, table_.view(t - 1, p), table_.view(t, p));
     if (mirror) mirror->advance(start);
     lift_above_horizon(start);
-    previous = fit_view(t, p, std::move(start), mirror ? mirror->mirrors() : std::vector<Mirror>());
+    std::vector<Mirror>& ties = mirrors[static_cast<std::size_t>(t)];
+    if (mirror) ties = mirror->mirrors();
+    previous = fit_view(t, p, std::move(start), ties, options_.em.max_iterations);
+  }
+  smooth_column(p, mirrors);
+}
+
+void TableFit::smooth_column(int p, const std::vector<std::vector<Mirror>>& mirrors) {
+  // So few that the lobes stay where they were put as far as the likelihood does not care.
+  constexpr int kIterations = 10;
+  for (int pass = 0; pass < options_.smoothing_passes; ++pass) {
+    for (const int first : {1, 2}) {  // every other view, then those between them
+      for (int t = first; t < elevations() - 1; t += 2) {
+        Mixture start = table_.smoothed_mixture_at_view(t, p);
+        lift_above_horizon(start);
+        fit_view(t, p, std::move(start), mirrors[static_cast<std::size_t>(t)],
+                 std::min(kIterations, options_.em.max_iterations));
+      }
+    }
   }
 }
 

@@ -87,6 +87,17 @@ Mixture LobeTable::mixture_at_view(int t, int p) const {
   return mixture;
 }
 
+Mixture LobeTable::smoothed_mixture_at_view(int t, int p) const {
+  const glm::dvec3 o = view(t, p);
+  Mixture mixture;
+  mixture.reserve(static_cast<std::size_t>(lobes_));
+  for (int k = 0; k < lobes_; ++k) {
+    const Entry neighbours = 0.5 * (entry(k, t - 1, p) + entry(k, t + 1, p));
+    mixture.push_back(decode(0.5 * (entry(k, t, p) + neighbours), alpha_, o));
+  }
+  return mixture;
+}
+
 void LobeTable::set_mixture_at_view(int t, int p, const Mixture& mixture) {
   if (mixture.size() != static_cast<std::size_t>(lobes_)) {
     throw std::invalid_argument("A view takes as many lobes as its table has.");

@@ -63,6 +63,10 @@ class LobeTable {
   Mixture mixture_at_view(int t, int p) const;
   void set_mixture_at_view(int t, int p, const Mixture& mixture);
 
+  // The lobes whose entries are the mean of view (t, p)'s and, together as much, those of the views
+  // before and after it in elevation; 0 < t < T − 1.
+  Mixture smoothed_mixture_at_view(int t, int p) const;
+
   // The lobes for any unit vector o, as the shader finds them: anisotropic tables fold o into the
   // first quadrant of azimuth and mirror the slopes back, isotropic ones are read in the frame
   // whose x axis is o's projection; entries are interpolated bilinearly. A view beyond the last
