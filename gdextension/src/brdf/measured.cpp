@@ -1,6 +1,7 @@
 #include "brdf/measured.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>

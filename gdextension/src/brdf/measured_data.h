@@ -2,8 +2,6 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
-#include <memory>
-#include <string>
 
 namespace lobelight {
 
