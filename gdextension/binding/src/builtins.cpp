@@ -31,6 +31,10 @@ std::int64_t Array::size() const {
   return call<std::int64_t>(GODOT_SUBSET_METHOD("size", 3173160232));
 }
 
+void Array::append(const Variant& value) {
+  call<std::int64_t>(GODOT_SUBSET_METHOD("append", 3316032543), value);  // returns nothing
+}
+
 const Variant& Array::operator[](std::int64_t index) const {
   return *static_cast<const Variant*>(engine.array_operator_index_const(_native_ptr(), index));
 }

@@ -53,6 +53,24 @@ void symmetrise(Mixture& mixture, const std::vector<Mirror>& mirrors) {
 MovingMirror::MovingMirror(Mirror mirror)
     : axis_(mirror.axis), image_(std::move(mirror.image)), merged_(image_.size(), false) {}
 
+MovingMirror MovingMirror::recognise(const Mixture& mixture, int axis) {
+  MovingMirror mirror(match_images(mixture, axis));
+  const std::size_t count = mixture.size();
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = a + 1; b < count && mirror.image_[a] == static_cast<int>(a); ++b) {
+      if (mirror.image_[b] != static_cast<int>(b) || mixture[a].weight != mixture[b].weight ||
+          mixture[a].gaussian.mean != mixture[b].gaussian.mean ||
+          mixture[a].gaussian.kappa != mixture[b].gaussian.kappa) {
+        continue;
+      }
+      mirror.image_[a] = static_cast<int>(b);
+      mirror.image_[b] = static_cast<int>(a);
+      mirror.merged_[a] = mirror.merged_[b] = true;
+    }
+  }
+  return mirror;
+}
+
 void MovingMirror::advance(Mixture& mixture) {
   glm::dvec3 normal(0.0);
   normal[axis_] = 1.0;

@@ -38,6 +38,9 @@ class MovingMirror {
  public:
   explicit MovingMirror(Mirror mirror);
 
+  // The state that a view's lobes were left in by mirrors(): two alike on the plane are merged.
+  static MovingMirror recognise(const Mixture& mixture, int axis);
+
   // To be called with the lobes that the next view starts from: brings merged pairs apart along the
   // plane and merges pairs whose lobes are less than kMergeDistance standard deviations off it.
   void advance(Mixture& mixture);

@@ -137,19 +137,8 @@ Mixture transport(const Mixture& from, const glm::dvec3& from_view, const glm::d
   return to;
 }
 
-// Lobes that start below the horizon, where the slice has no mass, start just above it.
-void lift_above_horizon(Mixture& mixture) {
-  constexpr double kMinHeight = 1e-3;
-  for (Lobe& lobe : mixture) {
-    lobe.gaussian.mean.z = std::max(lobe.gaussian.mean.z, kMinHeight);
-    lobe.gaussian.mean = glm::normalize(lobe.gaussian.mean);
-  }
-}
-
 void TableFit::fit_by_continuation() {
-  // Short steps, so that lobes stay what they are from view to view: half-way between views tables
-  // are up to a tenth better than with 0.3, for a fifth more iterations.
-  options_.em.longest_step = std::min(options_.em.longest_step, 0.1);
+  options_.em.longest_step = std::min(options_.em.longest_step, kContinuationStep);
   // Normal incidence is symmetric in both planes; the planes that count are those that the table is
   // mirrored in and, for isotropic ones, the plane of incidence.
   const Slice slice = sample_slice(brdf_, table_.view(0, 0), options_.nodes_per_axis, rotation_);
@@ -195,21 +184,27 @@ void TableFit::fit_column(int p, const Mixture& pole, const std::vector<Mirror>&
 }
 
 void TableFit::smooth_column(int p, const std::vector<std::vector<Mirror>>& mirrors) {
-  // So few that the lobes stay where they were put as far as the likelihood does not care.
-  constexpr int kIterations = 10;
   for (int pass = 0; pass < options_.smoothing_passes; ++pass) {
     for (const int first : {1, 2}) {  // every other view, then those between them
       for (int t = first; t < elevations() - 1; t += 2) {
         Mixture start = table_.smoothed_mixture_at_view(t, p);
         lift_above_horizon(start);
         fit_view(t, p, std::move(start), mirrors[static_cast<std::size_t>(t)],
-                 std::min(kIterations, options_.em.max_iterations));
+                 std::min(kSmoothingIterations, options_.em.max_iterations));
       }
     }
   }
 }
 
 }  // namespace
+
+void lift_above_horizon(Mixture& mixture) {
+  constexpr double kMinHeight = 1e-3;
+  for (Lobe& lobe : mixture) {
+    lobe.gaussian.mean.z = std::max(lobe.gaussian.mean.z, kMinHeight);
+    lobe.gaussian.mean = glm::normalize(lobe.gaussian.mean);
+  }
+}
 
 std::string_view to_string(FitMethod method) {
   return method == FitMethod::independent ? "independent" : "continuation";

@@ -1,5 +1,6 @@
 #include "godot/lobe_baker.h"
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -9,6 +10,7 @@
 #include <stdexcept>
 
 #include "brdf/measured.h"
+#include "fit/roughness_fitter.h"
 #include "fit/slice.h"
 #include "fit/table_fitter.h"
 #include "godot/convert.h"
@@ -19,6 +21,21 @@ using namespace godot;
 namespace lobelight {
 
 namespace {
+
+// The recipe of a set of tables: one with "widths" instead of "alpha".
+SetRecipe read_set_recipe(const Dictionary& values) {
+  const Request request(values, "a recipe for a set of tables",
+                        {"brdf", "widths", "lobes", "views", "seed", "threads"});
+  SetRecipe recipe;
+  recipe.brdf = request.text("brdf", recipe.brdf);
+  recipe.widths = request.numbers("widths");
+  recipe.lobes = request.integer("lobes", recipe.lobes);
+  recipe.views = request.counts("views", recipe.views);
+  recipe.seed = request.unsigned_integer("seed", recipe.seed);
+  recipe.threads = request.integer("threads", recipe.threads);
+  validate(recipe);
+  return recipe;
+}
 
 Recipe read_recipe(const Dictionary& values) {
   const Request request(values, "a recipe",
@@ -39,8 +56,7 @@ Recipe read_recipe(const Dictionary& values) {
   return recipe;
 }
 
-PackedByteArray texels(const LobeTable& table) {
-  const std::vector<std::uint16_t> halves = table.to_rgba16f();
+PackedByteArray to_bytes(const std::vector<std::uint16_t>& halves) {
   const std::size_t size = halves.size() * sizeof(halves[0]);
   PackedByteArray bytes;
   bytes.resize(static_cast<std::int64_t>(size));
@@ -61,7 +77,7 @@ Dictionary bake_recipe(const Recipe& recipe, Progress& progress) {
   result["seed"] = recipe.seed;
   result["width"] = table.width();
   result["height"] = table.height();
-  result["data"] = texels(table);
+  result["data"] = to_bytes(table.to_rgba16f());
   result["seconds"] = report.seconds;
   result["iterations"] = to_godot(report.iterations);
   result["log_likelihood"] = to_godot(report.log_likelihood);
@@ -72,9 +88,29 @@ Dictionary bake_recipe(const Recipe& recipe, Progress& progress) {
   return result;
 }
 
+Dictionary bake_set(const SetRecipe& recipe, Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<std::uint16_t> texels = fit_table_set(recipe, progress);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  Array widths;
+  for (const double width : recipe.widths) widths.append(width);
+  Dictionary result;
+  result["brdf"] = to_godot(recipe.brdf);
+  result["widths"] = widths;
+  result["lobes"] = recipe.lobes;
+  result["views"] = to_godot(recipe.views);
+  result["seed"] = recipe.seed;
+  result["width"] = recipe.views.x;
+  result["height"] = static_cast<std::int64_t>(texels.size()) / (4 * recipe.views.x);
+  result["data"] = to_bytes(texels);
+  result["seconds"] = elapsed.count();
+  return result;
+}
+
 }  // namespace
 
 void LobeBaker::_bind_methods() {
+  ClassDB::bind_method(D_METHOD("refit", "recipe", "data", "table"), &LobeBaker::refit);
   ClassDB::bind_method(D_METHOD("bake", "recipe"), &LobeBaker::bake, DEFVAL(Dictionary()));
   ClassDB::bind_static_method("LobeBaker", D_METHOD("directional_albedo", "brdf", "alpha", "view"),
                               &LobeBaker::directional_albedo);
@@ -82,7 +118,27 @@ void LobeBaker::_bind_methods() {
 
 Dictionary LobeBaker::bake(const Dictionary& recipe) const { return run(recipe); }
 
+Dictionary LobeBaker::refit(const Dictionary& recipe, const PackedByteArray& data,
+                            int table) const {
+  try {
+    std::vector<std::uint16_t> texels(static_cast<std::size_t>(data.size()) /
+                                      sizeof(std::uint16_t));
+    if (!texels.empty()) std::memcpy(texels.data(), data.ptr(), texels.size() * sizeof(texels[0]));
+    Progress progress;
+    Dictionary result;
+    result["data"] = to_bytes(refit_table(read_set_recipe(recipe), texels, table, progress));
+    return result;
+  } catch (const std::exception& error) {
+    return error_result(error.what());
+  }
+}
+
 LobeTask::Work LobeBaker::prepare(const Dictionary& recipe) const {
+  if (recipe.has("widths")) {
+    return [recipe = read_set_recipe(recipe)](Progress& progress) {
+      return bake_set(recipe, progress);
+    };
+  }
   return
       [recipe = read_recipe(recipe)](Progress& progress) { return bake_recipe(recipe, progress); };
 }

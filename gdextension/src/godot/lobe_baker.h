@@ -1,5 +1,6 @@
 #pragma once
 
+#include <godot_cpp/variant/packed_byte_array.hpp>
 #include <godot_cpp/variant/vector2.hpp>
 #include <godot_cpp/variant/vector3.hpp>
 
@@ -13,6 +14,10 @@ class LobeBaker : public LobeTask {
 
  public:
   godot::Dictionary bake(const godot::Dictionary& recipe) const;
+
+  // One table of a set again, from the set's texels: {"data"}.
+  godot::Dictionary refit(const godot::Dictionary& recipe, const godot::PackedByteArray& data,
+                          int table) const;
 
   // NaN, and an error in the log, for what `bake` would refuse and for a view below the horizon.
   static double directional_albedo(const godot::String& brdf, const godot::Vector2& alpha,

@@ -176,6 +176,24 @@ glm::dvec2 Request::widths(std::string_view key, const glm::dvec2& fallback) con
   refuse(key, value, "a number, a Vector2 or an Array of two numbers");
 }
 
+std::vector<double> Request::numbers(std::string_view key) const {
+  std::vector<double> read;
+  if (!has(key)) return read;
+  const Variant& value = values_[key_variant(key)];
+  constexpr const char* kWanted = "an Array of numbers";
+  if (value.get_type() != Variant::ARRAY) refuse(key, value, kWanted);
+  const godot::Array array = value;
+  const std::int64_t count = array.size();
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::optional<double> one = number(array[i]);
+    if (!one) refuse(key, value, kWanted);
+    read.push_back(*one);
+  }
+  return read;
+}
+
+bool Request::has(std::string_view key) const { return values_.has(key_variant(key)); }
+
 glm::ivec2 Request::counts(std::string_view key, const glm::ivec2& fallback) const {
   if (!values_.has(key_variant(key))) return fallback;
   const Variant& value = values_[key_variant(key)];

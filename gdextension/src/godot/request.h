@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lobelight {
 
@@ -29,6 +30,9 @@ class Request {
 
   // A Vector2, a Vector2i, an Array of two numbers, or one number that stands for both.
   glm::dvec2 widths(std::string_view key, const glm::dvec2& fallback) const;
+  // An Array of numbers; none where the key is not there.
+  std::vector<double> numbers(std::string_view key) const;
+  bool has(std::string_view key) const;
   // A Vector2i, a Vector2 or an Array of two whole numbers.
   glm::ivec2 counts(std::string_view key, const glm::ivec2& fallback) const;
 

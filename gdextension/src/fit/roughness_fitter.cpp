@@ -1,0 +1,371 @@
+#include "fit/roughness_fitter.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "base/parallel.h"
+#include "fit/em.h"
+#include "fit/slice.h"
+#include "fit/table_fitter.h"
+#include "table/half_float.h"
+
+namespace lobelight {
+
+namespace {
+
+constexpr double kGoldenRatioFraction = 0.61803398874989484820;
+
+// The recipe of the one table from which all others of its kind descend.
+Recipe table_recipe(const SetRecipe& set, const glm::dvec2& alpha, const glm::ivec2& views) {
+  Recipe recipe;
+  recipe.brdf = set.brdf;
+  recipe.alpha = alpha;
+  recipe.lobes = set.lobes;
+  recipe.views = views;
+  recipe.seed = set.seed;
+  recipe.threads = set.threads;
+  return recipe;
+}
+
+// The weighted sum of tables' entries, for widths `alpha`.
+class Blend {
+ public:
+  Blend(const glm::dvec2& alpha, const glm::ivec2& views, int lobes)
+      : alpha_(alpha),
+        views_(views),
+        lobes_(lobes),
+        entries_(static_cast<std::size_t>(lobes * views.x * views.y), LobeTable::Entry(0.0)) {}
+
+  // `sharper` is added to the binary logarithms of the sharpnesses.
+  void add(const LobeTable& table, double share, double sharper = 0.0) {
+    auto sum = entries_.begin();
+    for (int k = 0; k < lobes_; ++k) {
+      for (int p = 0; p < views_.y; ++p) {
+        for (int t = 0; t < views_.x; ++t, ++sum) {
+          LobeTable::Entry entry = table.entry(k, t, p);
+          entry.z += sharper;
+          *sum += share * entry;
+        }
+      }
+    }
+  }
+
+  LobeTable table() const {
+    std::vector<std::uint16_t> texels;
+    texels.reserve(4 * entries_.size());
+    for (const LobeTable::Entry& entry : entries_) {
+      for (int c = 0; c < 4; ++c) texels.push_back(half_from_double(entry[c]));
+    }
+    return LobeTable::from_rgba16f(alpha_, lobes_, views_, texels);
+  }
+
+ private:
+  glm::dvec2 alpha_;
+  glm::ivec2 views_;
+  int lobes_;
+  std::vector<LobeTable::Entry> entries_;
+};
+
+LobeTable stored_table(const SetLayout& layout, int lobes, const std::vector<std::uint16_t>& texels,
+                       int table, const glm::dvec2& alpha) {
+  const auto first = texels.begin() + static_cast<std::ptrdiff_t>(layout.offset(table));
+  const auto last = texels.begin() + static_cast<std::ptrdiff_t>(layout.offset(table + 1));
+  return LobeTable::from_rgba16f(alpha, lobes, layout.views(table), {first, last});
+}
+
+// One set on its way.
+class SetFit {
+ public:
+  SetFit(const SetRecipe& recipe, std::vector<std::uint16_t> texels, Progress& progress)
+      : recipe_(recipe), layout_(recipe), texels_(std::move(texels)), progress_(progress) {
+    texels_.resize(layout_.total());
+    const double turns = static_cast<double>(recipe.seed % 1048576) * kGoldenRatioFraction;
+    rotation_ = turns - std::floor(turns);
+  }
+
+  std::vector<std::uint16_t> run();
+  std::vector<std::uint16_t> fit(int table);
+
+ private:
+  // Steps from the table that is fitted by itself: in the middle of the widths for isotropic ones;
+  // for the others of ratio 5 or so, where the lobes lie in a row and rows of any view and ratio
+  // can be reached.
+  glm::ivec2 root(bool isotropic) const {
+    const int last = layout_.levels() - 1;
+    return isotropic ? glm::ivec2(last / 2) : glm::ivec2(3 * last / 4, 7 * last / 16);
+  }
+  int distance(int table) const {
+    const bool isotropic = layout_.is_isotropic(table);
+    const glm::ivec2 way = layout_.level(table) - root(isotropic);
+    return isotropic ? std::abs(way.x) : std::abs(way.x) + std::abs(way.y);
+  }
+  // The neighbours that are a step nearer to the root.
+  std::vector<int> parents(int table) const;
+
+  glm::dvec2 alpha(int table) const {
+    const glm::ivec2 level = layout_.level(table);
+    return {recipe_.widths[static_cast<std::size_t>(level.x)],
+            recipe_.widths[static_cast<std::size_t>(level.y)]};
+  }
+  LobeTable stored(int table) const {
+    return stored_table(layout_, recipe_.lobes, texels_, table, alpha(table));
+  }
+  // Gives view (t, p) of `table` the lobes that `start` leads to.
+  void fit_view(const Brdf& brdf, LobeTable& table, int t, int p, Mixture start,
+                const std::vector<Mirror>& mirrors, int max_iterations) const;
+
+  const SetRecipe& recipe_;
+  SetLayout layout_;
+  std::vector<std::uint16_t> texels_;
+  Progress& progress_;
+  double rotation_ = 0.0;
+};
+
+std::vector<int> SetFit::parents(int table) const {
+  const glm::ivec2 level = layout_.level(table);
+  const bool isotropic = layout_.is_isotropic(table);
+  std::vector<int> found;
+  const auto consider = [&](int x, int y) {
+    if (y < 0 || x >= layout_.levels() || x < y) return;
+    const int other = isotropic ? layout_.isotropic_table(x) : layout_.pair_table(x, y);
+    if (distance(other) < distance(table)) found.push_back(other);
+  };
+  for (const int step : {-1, 1}) {
+    if (isotropic) {
+      consider(level.x + step, level.y + step);
+    } else {
+      consider(level.x + step, level.y);
+      consider(level.x, level.y + step);
+    }
+  }
+  return found;
+}
+
+void SetFit::fit_view(const Brdf& brdf, LobeTable& table, int t, int p, Mixture start,
+                      const std::vector<Mirror>& mirrors, int max_iterations) const {
+  progress_.throw_if_cancelled();
+  lift_above_horizon(start);
+  EmOptions em;
+  em.progress = &progress_;
+  em.longest_step = kContinuationStep;
+  em.max_iterations = std::min(em.max_iterations, max_iterations);
+  em.mirrors = mirrors;
+  const Slice slice = sample_slice(brdf, table.view(t, p), FitOptions().nodes_per_axis, rotation_);
+  table.set_mixture_at_view(t, p, run_em(slice, std::move(start), em).mixture);
+}
+
+std::vector<std::uint16_t> SetFit::fit(int table) {
+  const std::vector<int> from = parents(table);
+  const glm::ivec2 views = layout_.views(table);
+  if (from.empty()) {
+    Progress own;
+    return fit_table(table_recipe(recipe_, alpha(table), views), own, nullptr).to_rgba16f();
+  }
+  const auto brdf = make_brdf(recipe_.brdf, alpha(table));
+  Blend blend(alpha(table), views, recipe_.lobes);
+  for (const int parent : from) {
+    // A lobe's sharpness goes with 1 / (alpha_x alpha_y).
+    const glm::dvec2 ratio = alpha(parent) / alpha(table);
+    blend.add(stored(parent), 1.0 / static_cast<double>(from.size()), std::log2(ratio.x * ratio.y));
+  }
+  const LobeTable start = blend.table();
+  // The first parent says which lobes are mirror images of one another.
+  const LobeTable model = stored(from.front());
+
+  LobeTable result(alpha(table), recipe_.lobes, views);
+  const int all = EmOptions().max_iterations;
+  Mixture pole = start.mixture_at_view(0, 0);
+  std::vector<Mirror> pole_mirrors{match_images(pole, 1)};
+  if (views.y > 1) pole_mirrors.push_back(match_images(pole, 0));
+  fit_view(*brdf, result, 0, 0, std::move(pole), pole_mirrors, all);
+
+  for (int p = 0; p < views.y; ++p) {
+    result.set_mixture_at_view(0, p, result.mixture_at_view(0, 0));
+    std::vector<std::vector<Mirror>> mirrors(static_cast<std::size_t>(views.x));
+    for (int t = 1; t < views.x; ++t) {
+      Mixture lobes = start.mixture_at_view(t, p);
+      std::vector<Mirror>& ties = mirrors[static_cast<std::size_t>(t)];
+      if (p == 0) {
+        ties = MovingMirror::recognise(model.mixture_at_view(t, p), 1).mirrors();
+      } else if (p == views.y - 1) {
+        MovingMirror mirror = MovingMirror::recognise(model.mixture_at_view(t, p), 0);
+        mirror.advance(lobes);
+        ties = mirror.mirrors();
+      }
+      fit_view(*brdf, result, t, p, std::move(lobes), ties, all);
+    }
+    // As in the table that all descend from.
+    for (int pass = 0; pass < FitOptions().smoothing_passes; ++pass) {
+      for (const int first : {1, 2}) {
+        for (int t = first; t < views.x - 1; t += 2) {
+          fit_view(*brdf, result, t, p, result.smoothed_mixture_at_view(t, p),
+                   mirrors[static_cast<std::size_t>(t)], kSmoothingIterations);
+        }
+      }
+    }
+  }
+  return result.to_rgba16f();
+}
+
+std::vector<std::uint16_t> SetFit::run() {
+  progress_.set(0.0);
+  // Tables at the same distance from their roots do not depend on one another.
+  std::vector<std::vector<int>> fronts;
+  for (int table = 0; table < layout_.tables(); ++table) {
+    const auto d = static_cast<std::size_t>(distance(table));
+    if (fronts.size() <= d) fronts.resize(d + 1);
+    fronts[d].push_back(table);
+  }
+  std::atomic<int> finished{0};
+  for (const std::vector<int>& front : fronts) {
+    parallel_for(front.size(), recipe_.threads, [&](std::size_t n) {
+      progress_.throw_if_cancelled();
+      const std::vector<std::uint16_t> own = fit(front[n]);
+      std::copy(own.begin(), own.end(),
+                texels_.begin() + static_cast<std::ptrdiff_t>(layout_.offset(front[n])));
+      progress_.set(static_cast<double>(++finished) / layout_.tables());
+    });
+  }
+  progress_.set(1.0);
+  return std::move(texels_);
+}
+
+[[noreturn]] void refuse(const std::ostringstream& sentence) {
+  throw std::invalid_argument(sentence.str());
+}
+
+}  // namespace
+
+std::vector<double> geometric_widths(double first, double last, int count) {
+  std::vector<double> widths;
+  for (int i = 0; i < count; ++i) {
+    widths.push_back(first * std::pow(last / first, static_cast<double>(i) / (count - 1)));
+  }
+  widths.back() = last;
+  return widths;
+}
+
+SetLayout::SetLayout(const SetRecipe& recipe)
+    : levels_(static_cast<int>(recipe.widths.size())), lobes_(recipe.lobes), views_(recipe.views) {}
+
+glm::ivec2 SetLayout::level(int table) const {
+  if (is_isotropic(table)) return glm::ivec2(table - pairs());
+  int x = 0;
+  while (pair_table(x + 1, 0) <= table) ++x;
+  return {x, table - pair_table(x, 0)};
+}
+
+std::size_t SetLayout::size(int table) const {
+  const glm::ivec2 grid = views(table);
+  return 4 * static_cast<std::size_t>(lobes_) * static_cast<std::size_t>(grid.x) *
+         static_cast<std::size_t>(grid.y);
+}
+
+std::size_t SetLayout::offset(int table) const {
+  const int before = std::min(table, pairs());
+  return static_cast<std::size_t>(before) * size(0) +
+         static_cast<std::size_t>(table - before) * size(pairs());
+}
+
+void validate(const SetRecipe& recipe) {
+  std::ostringstream sentence;
+  if (recipe.widths.size() < 2 || recipe.widths.size() > kMaxWidths) {
+    sentence << "widths has " << recipe.widths.size() << " numbers, but needs 2 to " << kMaxWidths
+             << ".";
+    refuse(sentence);
+  }
+  for (std::size_t i = 1; i < recipe.widths.size(); ++i) {
+    if (recipe.widths[i] > recipe.widths[i - 1]) continue;
+    sentence << "widths has " << recipe.widths[i] << " after " << recipe.widths[i - 1]
+             << ", but must rise.";
+    refuse(sentence);
+  }
+  const auto& names = brdf_names();
+  if (std::find(names.begin(), names.end(), recipe.brdf) == names.end()) {
+    sentence << "brdf is \"" << recipe.brdf << "\", but sets of tables are fitted of models only.";
+    refuse(sentence);
+  }
+  if (recipe.views.x < 2 || recipe.views.y < 2) {
+    sentence << "views is (" << recipe.views.x << ", " << recipe.views.y
+             << "), but a set needs at least 2 elevations and 2 azimuths.";
+    refuse(sentence);
+  }
+  for (const double width : {recipe.widths.front(), recipe.widths.back()}) {
+    validate(table_recipe(recipe, glm::dvec2(width), recipe.views));
+  }
+}
+
+std::vector<std::uint16_t> fit_table_set(const SetRecipe& recipe, Progress& progress) {
+  validate(recipe);
+  return SetFit(recipe, {}, progress).run();
+}
+
+std::vector<std::uint16_t> refit_table(const SetRecipe& recipe,
+                                       const std::vector<std::uint16_t>& texels, int table,
+                                       Progress& progress) {
+  validate(recipe);
+  const SetLayout layout(recipe);
+  if (texels.size() != layout.total()) {
+    throw std::invalid_argument("The texels do not have the size of the set of tables.");
+  }
+  if (table < 0 || table >= layout.tables()) {
+    throw std::invalid_argument("The set has no table of this number.");
+  }
+  return SetFit(recipe, texels, progress).fit(table);
+}
+
+LobeTable interpolate_table_set(const SetRecipe& recipe, const std::vector<std::uint16_t>& texels,
+                                const glm::dvec2& alpha) {
+  validate(recipe);
+  const SetLayout layout(recipe);
+  if (texels.size() != layout.total()) {
+    throw std::invalid_argument("The texels do not have the size of the set of tables.");
+  }
+  if (!(alpha.x >= alpha.y) || !(alpha.y > 0.0)) {
+    throw std::invalid_argument("Widths must be positive, that along x the greater one.");
+  }
+  // The lower level and the way to the next.
+  const std::vector<double>& widths = recipe.widths;
+  const auto locate = [&](double width) {
+    const double within = std::clamp(width, widths.front(), widths.back());
+    int level = 0;
+    while (level + 2 < layout.levels() && widths[static_cast<std::size_t>(level) + 1] <= within) {
+      ++level;
+    }
+    const double low = widths[static_cast<std::size_t>(level)];
+    const double high = widths[static_cast<std::size_t>(level) + 1];
+    return std::make_pair(level, std::log(within / low) / std::log(high / low));
+  };
+  const auto [x, u] = locate(alpha.x);
+  const auto [y, v] = locate(alpha.y);
+  const glm::dvec2 used = glm::clamp(alpha, widths.front(), widths.back());
+
+  const bool isotropic = used.x == used.y;
+  Blend blend(used, layout.views(isotropic ? layout.pairs() : 0), recipe.lobes);
+  const auto add = [&](int table, double share) {
+    if (share > 0.0) blend.add(stored_table(layout, recipe.lobes, texels, table, used), share);
+  };
+  if (isotropic) {
+    add(layout.isotropic_table(x), 1.0 - u);
+    add(layout.isotropic_table(x + 1), u);
+  } else if (x == y) {
+    add(layout.pair_table(x, y), 1.0 - u);
+    add(layout.pair_table(x + 1, y), u - v);
+    add(layout.pair_table(x + 1, y + 1), v);
+  } else {
+    add(layout.pair_table(x, y), (1.0 - u) * (1.0 - v));
+    add(layout.pair_table(x + 1, y), u * (1.0 - v));
+    add(layout.pair_table(x, y + 1), (1.0 - u) * v);
+    add(layout.pair_table(x + 1, y + 1), u * v);
+  }
+  return blend.table();
+}
+
+}  // namespace lobelight

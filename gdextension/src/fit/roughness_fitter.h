@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "table/lobe_table.h"
+
+namespace lobelight {
+
+// Tables of one BRDF over its widths (alpha_x, alpha_y), fitted so that lobe k of neighbouring
+// widths is the same lobe: tables can be interpolated in the logarithms of the widths.
+//
+// A table's lobes start from those of the neighbouring widths, view by view. Continuation over the
+// views alone does not do: at equal widths the lobes at normal incidence lie nearly on top of one
+// another, and where they part on the way to grazing views differs from width to width.
+struct SetRecipe {
+  std::string brdf = "ward";  // a model's name
+  // The widths on each axis, rising; at least two. Steps of a factor √2 or less interpolate well.
+  std::vector<double> widths;
+  int lobes = 8;
+  glm::ivec2 views{16, 8};  // of an anisotropic table; isotropic ones have views.x × 1
+  std::uint64_t seed = 0;
+  int threads = 0;  // zero or negative: every core
+};
+
+// `count` ≥ 2 widths from `first` to `last` in equal steps of the logarithm.
+std::vector<double> geometric_widths(double first, double last, int count);
+
+constexpr int kMaxWidths = 64;
+
+// Where a set's tables are. Tables come in the order in which they are stored: the anisotropic ones
+// of all pairs x ≥ y, pair (x, y) at x (x + 1) / 2 + y, then the isotropic ones of all widths.
+// Pairs x < y are those of (y, x), seen from the other axis. Equal widths have a table of each
+// kind: the anisotropic one, whose lobes lie in the tangent frame, is for interpolation with its
+// neighbours.
+class SetLayout {
+ public:
+  explicit SetLayout(const SetRecipe& recipe);
+
+  int levels() const { return levels_; }
+  int pairs() const { return levels_ * (levels_ + 1) / 2; }
+  int tables() const { return pairs() + levels_; }
+
+  int pair_table(int x, int y) const { return x * (x + 1) / 2 + y; }
+  int isotropic_table(int level) const { return pairs() + level; }
+  bool is_isotropic(int table) const { return table >= pairs(); }
+
+  // The levels of the widths along x and y.
+  glm::ivec2 level(int table) const;
+
+  // Elevations × azimuths.
+  glm::ivec2 views(int table) const { return {views_.x, is_isotropic(table) ? 1 : views_.y}; }
+
+  // In half floats: the texels of a table are those of LobeTable::to_rgba16f().
+  std::size_t size(int table) const;
+  std::size_t offset(int table) const;
+  std::size_t total() const { return offset(tables()); }
+
+ private:
+  int levels_;
+  int lobes_;
+  glm::ivec2 views_;
+};
+
+// Throws std::invalid_argument with one sentence that names the key and the value.
+void validate(const SetRecipe& recipe);
+
+// The texels of all tables, each refined from its parents' rounded ones. The bytes are the same for
+// any number of threads. Throws what validate() does, and Cancelled.
+std::vector<std::uint16_t> fit_table_set(const SetRecipe& recipe, Progress& progress);
+
+// Fits one table again from the texels of its parents in a finished set: gives the bytes that the
+// set has for it, so that a part of a set can be checked. Throws std::invalid_argument also where
+// the texels are not those of such a set or there is no such table.
+std::vector<std::uint16_t> refit_table(const SetRecipe& recipe,
+                                       const std::vector<std::uint16_t>& texels, int table,
+                                       Progress& progress);
+
+// The table of any widths, alpha.x ≥ alpha.y, interpolated as LobeTableSet does it: linearly in the
+// logarithms of the widths, in triangles next to the diagonal and bilinearly elsewhere; equal
+// widths give an isotropic table. Widths beyond the set's are its last ones.
+LobeTable interpolate_table_set(const SetRecipe& recipe, const std::vector<std::uint16_t>& texels,
+                                const glm::dvec2& alpha);
+
+}  // namespace lobelight

@@ -1,0 +1,142 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "brdf/brdf.h"
+#include "fit/roughness_fitter.h"
+#include "fit/slice.h"
+#include "fit/table_fitter.h"
+#include "table_errors.h"
+
+using namespace lobelight;
+
+namespace {
+
+// Fitted in a fraction of a second.
+SetRecipe small_set() {
+  SetRecipe set;
+  set.brdf = "ggx";
+  set.widths = geometric_widths(0.1, 0.2, 3);
+  set.lobes = 3;
+  set.views = {5, 3};
+  return set;
+}
+
+std::vector<std::uint16_t> fit(const SetRecipe& set) {
+  Progress progress;
+  return fit_table_set(set, progress);
+}
+
+}  // namespace
+
+TEST_CASE("a layout's tables follow one another without gaps") {
+  const SetRecipe set = small_set();
+  const SetLayout layout(set);
+  CHECK(layout.tables() == 6 + 3);
+  std::size_t offset = 0;
+  for (int table = 0; table < layout.tables(); ++table) {
+    CHECK(layout.offset(table) == offset);
+    offset += layout.size(table);
+    const glm::ivec2 level = layout.level(table);
+    CHECK(level.x >= level.y);
+    CHECK(table == (layout.is_isotropic(table) ? layout.isotropic_table(level.x)
+                                               : layout.pair_table(level.x, level.y)));
+  }
+  CHECK(layout.total() == offset);
+}
+
+TEST_CASE("a set is the same for any number of threads") {
+  SetRecipe set = small_set();
+  set.threads = 1;
+  const std::vector<std::uint16_t> one = fit(set);
+  set.threads = 3;
+  CHECK(one == fit(set));
+}
+
+TEST_CASE("each table of a set can be fitted again from its neighbours") {
+  const SetRecipe set = small_set();
+  const SetLayout layout(set);
+  const std::vector<std::uint16_t> texels = fit(set);
+  Progress progress;
+  for (int table = 0; table < layout.tables(); ++table) {
+    const auto first = texels.begin() + static_cast<std::ptrdiff_t>(layout.offset(table));
+    const std::vector<std::uint16_t> stored(
+        first, first + static_cast<std::ptrdiff_t>(layout.size(table)));
+    CHECK(stored == refit_table(set, texels, table, progress));
+  }
+  CHECK_THROWS_AS(refit_table(set, texels, layout.tables(), progress), std::invalid_argument);
+  CHECK_THROWS_AS(refit_table(set, {}, 0, progress), std::invalid_argument);
+}
+
+TEST_CASE("interpolated tables are nearly as good as fitted ones") {
+  SetRecipe set = small_set();
+  set.lobes = 4;
+  set.views = {8, 4};
+  const std::vector<std::uint16_t> texels = fit(set);
+  // Between two widths, in a triangle at the diagonal, and in a square. A table whose lobes do not
+  // correspond is off by 10 to 30 % more.
+  for (const glm::dvec2& alpha :
+       {glm::dvec2(0.12, 0.12), glm::dvec2(0.13, 0.11), glm::dvec2(0.18, 0.12)}) {
+    const LobeTable between = interpolate_table_set(set, texels, alpha);
+    CHECK(between.alpha() == alpha);
+    CHECK(between.is_isotropic() == (alpha.x == alpha.y));
+    Recipe recipe;
+    recipe.brdf = set.brdf;
+    recipe.alpha = alpha;
+    recipe.lobes = set.lobes;
+    recipe.views = between.views();
+    Progress progress;
+    const auto brdf = make_brdf(set.brdf, alpha);
+    const LobeTable direct = fit_table(recipe, progress, nullptr);
+    CHECK(table_errors(between, *brdf, false).at_views.mean_per_cent() <
+          table_errors(direct, *brdf, false).at_views.mean_per_cent() + 2.0);
+  }
+}
+
+TEST_CASE("a set's weights add up to the albedo, between widths too") {
+  const SetRecipe set = small_set();
+  const std::vector<std::uint16_t> texels = fit(set);
+  const LobeTable table = interpolate_table_set(set, texels, {0.17, 0.13});
+  const auto brdf = make_brdf("ggx", {0.17, 0.13});
+  for (int t = 0; t < 5; ++t) {
+    const double albedo = sample_slice(*brdf, table.view(t, 1)).albedo;
+    CHECK(total_weight(table.mixture_at_view(t, 1)) == doctest::Approx(albedo).epsilon(0.02));
+  }
+}
+
+TEST_CASE("what a set cannot be fitted of is named") {
+  const auto message = [](const SetRecipe& set) -> std::string {
+    try {
+      validate(set);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  SetRecipe set = small_set();
+  CHECK(message(set).empty());
+  set.widths = {0.1};
+  CHECK(message(set) == "widths has 1 numbers, but needs 2 to 64.");
+  set.widths = {0.1, 0.3, 0.2};
+  CHECK(message(set) == "widths has 0.2 after 0.3, but must rise.");
+  set.widths = {0.1, NAN};
+  CHECK(message(set).find("must rise") != std::string::npos);
+  set.widths = {0.0, 0.1};
+  CHECK(message(set).find("alpha is (0, 0)") != std::string::npos);
+  set = small_set();
+  set.brdf = "copper.binary";
+  CHECK(message(set).find("models only") != std::string::npos);
+  set = small_set();
+  set.views = {16, 1};
+  CHECK(message(set).find("2 azimuths") != std::string::npos);
+  set = small_set();
+  set.lobes = 33;
+  CHECK(message(set).find("lobes is 33") != std::string::npos);
+}
+
+TEST_CASE("a set is cancelled between views") {
+  Progress progress;
+  progress.cancel();
+  CHECK_THROWS_AS(fit_table_set(small_set(), progress), Cancelled);
+}
