@@ -13,6 +13,13 @@ const OPTIONS: PackedStringArray = [
 	"out",
 	"export",
 	"json",
+	"target",
+]
+## Where "lobes": "auto" measures a table, beside the library's synthetic environment.
+const ENVIRONMENTS: PackedStringArray = [
+	"res://demo/environments/hall.exr",
+	"res://demo/environments/sunset.exr",
+	"res://tests/data/forest.exr",
 ]
 
 var _arguments := CommandLine.new("bake", OPTIONS)
@@ -52,12 +59,18 @@ func _recipe() -> Dictionary:
 	if _arguments.has("brdf"):
 		recipe["brdf"] = _arguments.brdf("brdf")
 		measured = CommandLine.is_measured(recipe["brdf"])
+	if _arguments.text("lobes") == "auto":
+		recipe["lobes"] = "auto"
 	for option: String in ["lobes", "seed", "threads"]:
-		if _arguments.has(option):
+		if _arguments.has(option) and _arguments.text(option) != "auto":
 			recipe[option] = _arguments.integer(option, 0, -(1 << 31), (1 << 31) - 1)
 	for option: String in ["alpha", "views"]:
 		if _arguments.has(option):
 			recipe[option] = Array(_arguments.numbers(option, 2, PackedFloat64Array([0, 0])))
+	if _arguments.has("target"):
+		recipe["target"] = _arguments.numbers("target", 1, PackedFloat64Array([0]))[0]
+	if recipe.get("lobes") is String and recipe["lobes"] == "auto":
+		recipe.get_or_add("environments", Array(ENVIRONMENTS))
 	for key: String in ["brdf", "alpha", "lobes"]:
 		# The widths of measurements are estimated.
 		if key not in recipe and not (key == "alpha" and measured):
@@ -117,6 +130,13 @@ func _bake(recipe: Dictionary, out: String) -> void:
 				% [table.brdf, result["clamped"], 100.0 * (result["asymmetry"] as float)]
 			)
 		)
+	if result.has("predicted_psnr"):
+		print(
+			(
+				"%d lobes are the fewest with %s dB: the table alone has %.1f dB"
+				% [result["lobes"], String.num(result["target"], 3), result["predicted_psnr"]]
+			)
+		)
 	if _arguments.has("json"):
 		_arguments.fail_if(AtomicFile.save_json(summary, _arguments.path("json")))
 	if _arguments.error.is_empty():
@@ -153,7 +173,7 @@ func _summary(result: Dictionary, out: String) -> Dictionary:
 		"log_likelihood": Array(result["log_likelihood"]),
 		"peak_memory_mb": _peak_memory_mb(),
 	}
-	for key: String in ["clamped", "asymmetry"]:
+	for key: String in ["clamped", "asymmetry", "target", "predicted_psnr"]:
 		if result.has(key):
 			summary[key] = result[key]
 	return summary

@@ -74,6 +74,17 @@ bake_refuses "an unknown option" "--colour" "${good_bake[@]}" --alpha 0.1,0.1 --
 bake_refuses "an option without a value" "--alpha" "${good_bake[@]}" --alpha
 bake_refuses "a missing recipe" "no_recipe.json" --recipe no_recipe.json --out table.res
 
+bake_refuses "a target without auto" "auto" "${good_bake[@]}" --alpha 0.1,0.1 --target 30
+bake_refuses "a target that is no number" "target" \
+  --brdf ward --alpha 0.1,0.1 --lobes auto --target high --out table.res
+
+refuses "bake-tables, an unknown BRDF" "phong" bake-tables --brdf phong --out .
+refuses "bake-tables, no lobe" "lobes" bake-tables --lobes 0 --out .
+refuses "bake-tables, one width" "widths" bake-tables --widths 1 --out .
+refuses "bake-tables, one azimuth" "azimuths" bake-tables --views 4,1 --out .
+refuses "bake-tables, a missing folder" "missing" bake-tables --out missing
+refuses "bake-tables, nothing to check" "ward_8.res" bake-tables --check --out .
+
 echo "This is text, not a file of measurements." >"$work/text.binary"
 echo "This is text, not a file of measurements." >"$work/text.bsdf"
 : >"$work/empty.binary"

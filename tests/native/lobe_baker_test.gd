@@ -205,6 +205,38 @@ func test_bad_recipe_is_refused_by_name(
 	assert_bool(baker.is_running()).is_false()
 
 
+func test_auto_chooses_the_fewest_lobes() -> void:
+	var recipe := {"alpha": 0.2, "lobes": "auto", "target": 26.0}
+	var found := LobeBaker.new().bake(recipe)
+	assert_str(found.get("error", "")).is_empty()
+	assert_float(found.target).is_equal(26.0)
+	assert_float(found.predicted_psnr).is_greater_equal(26.0)
+	assert_int(found.lobes).is_between(2, 8)
+	# It is the table that the count gives by itself.
+	var plain := LobeBaker.new().bake({"alpha": 0.2, "lobes": found.lobes})
+	assert_bool(found.data == plain.data).is_true()
+	# One lobe has less, so that a target below that takes one.
+	var one := LobeBaker.new().bake({"alpha": 0.2, "lobes": "auto", "target": 5.0})
+	assert_int(one.lobes).is_equal(1)
+	assert_float(one.predicted_psnr).is_less(26.0)
+
+
+func test_auto_says_what_it_cannot_do() -> void:
+	# Two elevations are too few for any count.
+	var coarse := {"alpha": 0.1, "lobes": "auto", "target": 46.0, "views": [2, 1]}
+	var message: String = LobeBaker.new().bake(coarse).get("error", "")
+	assert_str(message).contains("The target of 46 dB is out of reach with up to 32 lobes")
+	for wrong: Array in [
+		[{"lobes": "auto", "target": 60}, "target is 60"],
+		[{"lobes": "auto", "target": "good"}, 'target is "good" (String)'],
+		[{"lobes": "auto", "environments": "hall.exr"}, "an Array of Strings"],
+		[{"lobes": "auto", "environments": ["res://nowhere.exr"]}, "nowhere.exr"],
+		[{"lobes": 8, "target": 30}, 'target goes with lobes "auto" only.'],
+		[{"environments": []}, 'environments goes with lobes "auto" only.'],
+	]:
+		assert_str(LobeBaker.new().bake(wrong[0]).get("error", "")).contains(wrong[1])
+
+
 func test_long_values_are_cut_in_messages() -> void:
 	var message: String = LobeBaker.new().bake({"brdf": ["ä\n".repeat(500)]}).error
 	assert_int(message.length()).is_less(200)

@@ -8,6 +8,8 @@ usage: ./dev bake --brdf ward|ward_bounded|ggx --alpha AX,AY --lobes N --out X.r
        ./dev bake --brdf FILE.binary|FILE_rgb.bsdf --lobes N --out X.res [OPTIONS]
 
 --brdf FILE          measurements, MERL's or RGL's; --alpha is then estimated, unless it is given
+--lobes auto         the fewest lobes (1, 2, 3, 4, 6, 8, 12, 16, 24 or 32) whose table has --target DB (default 30)
+                     on every one of four environments, the lobes' light taken exactly, without the pyramid
 --recipe FILE.json   brdf, alpha, lobes, views, method, seed and threads; options go before it
 --views T,P          elevations and azimuths of the view (default 16,1 isotropic, 16,8 anisotropic)
 --method M           continuation (default) or independent

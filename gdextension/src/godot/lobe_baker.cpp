@@ -14,6 +14,7 @@
 #include "fit/slice.h"
 #include "fit/table_fitter.h"
 #include "godot/convert.h"
+#include "godot/lobe_count.h"
 #include "godot/request.h"
 
 using namespace godot;
@@ -37,9 +38,21 @@ SetRecipe read_set_recipe(const Dictionary& values) {
   return recipe;
 }
 
-Recipe read_recipe(const Dictionary& values) {
-  const Request request(values, "a recipe",
-                        {"brdf", "alpha", "lobes", "views", "method", "seed", "threads"});
+// "lobes": "auto".
+bool asks_for_count(const Request& request) { return request.says("lobes", "auto"); }
+
+LobeCountRequest read_count_request(const Request& request, const Recipe& recipe) {
+  LobeCountRequest count;
+  count.recipe = recipe;
+  count.target = request.real("target", count.target);
+  for (const std::string& path : request.texts("environments")) {
+    count.environments.push_back(file_system_path(to_godot(path)));
+  }
+  validate(count);
+  return count;
+}
+
+Recipe read_recipe(const Request& request) {
   Recipe recipe;
   recipe.brdf = request.text("brdf", recipe.brdf);
   if (is_measured_file(recipe.brdf)) {
@@ -47,7 +60,7 @@ Recipe read_recipe(const Dictionary& values) {
     recipe.alpha = glm::dvec2(0.0);
   }
   recipe.alpha = request.widths("alpha", recipe.alpha);
-  recipe.lobes = request.integer("lobes", recipe.lobes);
+  if (!asks_for_count(request)) recipe.lobes = request.integer("lobes", recipe.lobes);
   recipe.views = request.counts("views", recipe.views);
   recipe.method = fit_method_from_string(request.text("method", to_string(recipe.method)));
   recipe.seed = request.unsigned_integer("seed", recipe.seed);
@@ -64,12 +77,10 @@ PackedByteArray to_bytes(const std::vector<std::uint16_t>& halves) {
   return bytes;
 }
 
-Dictionary bake_recipe(const Recipe& recipe, Progress& progress) {
-  FitReport report;
-  const std::unique_ptr<Brdf> brdf = make_brdf(recipe.brdf, recipe.alpha);
-  const LobeTable table = fit_table(*brdf, recipe, progress, &report);
+Dictionary to_dictionary(const LobeTable& table, const FitReport& report, const Brdf& brdf,
+                         const Recipe& recipe) {
   Dictionary result;
-  result["brdf"] = to_godot(brdf->name());
+  result["brdf"] = to_godot(brdf.name());
   result["alpha"] = to_godot(table.alpha());
   result["lobes"] = table.lobes();
   result["views"] = to_godot(table.views());
@@ -81,10 +92,26 @@ Dictionary bake_recipe(const Recipe& recipe, Progress& progress) {
   result["seconds"] = report.seconds;
   result["iterations"] = to_godot(report.iterations);
   result["log_likelihood"] = to_godot(report.log_likelihood);
-  if (const auto* measured = dynamic_cast<const MeasuredBrdf*>(brdf.get())) {
+  if (const auto* measured = dynamic_cast<const MeasuredBrdf*>(&brdf)) {
     result["clamped"] = static_cast<std::int64_t>(measured->clamped());
     result["asymmetry"] = measured->asymmetry();
   }
+  return result;
+}
+
+Dictionary bake_recipe(const Recipe& recipe, Progress& progress) {
+  FitReport report;
+  const std::unique_ptr<Brdf> brdf = make_brdf(recipe.brdf, recipe.alpha);
+  const LobeTable table = fit_table(*brdf, recipe, progress, &report);
+  return to_dictionary(table, report, *brdf, recipe);
+}
+
+Dictionary bake_enough_lobes(const LobeCountRequest& request, Progress& progress) {
+  const std::unique_ptr<Brdf> brdf = make_brdf(request.recipe.brdf, request.recipe.alpha);
+  const LobeCount found = find_lobe_count(request, *brdf, progress);
+  Dictionary result = to_dictionary(found.table, found.report, *brdf, request.recipe);
+  result["target"] = request.target;
+  result["predicted_psnr"] = found.trials.back().psnr;
   return result;
 }
 
@@ -139,8 +166,21 @@ LobeTask::Work LobeBaker::prepare(const Dictionary& recipe) const {
       return bake_set(recipe, progress);
     };
   }
-  return
-      [recipe = read_recipe(recipe)](Progress& progress) { return bake_recipe(recipe, progress); };
+  const Request request(
+      recipe, "a recipe",
+      {"brdf", "alpha", "lobes", "views", "method", "seed", "threads", "target", "environments"});
+  const Recipe read = read_recipe(request);
+  if (asks_for_count(request)) {
+    return [count = read_count_request(request, read)](Progress& progress) {
+      return bake_enough_lobes(count, progress);
+    };
+  }
+  for (const char* key : {"target", "environments"}) {
+    if (request.has(key)) {
+      throw std::invalid_argument(std::string(key) + " goes with lobes \"auto\" only.");
+    }
+  }
+  return [read](Progress& progress) { return bake_recipe(read, progress); };
 }
 
 double LobeBaker::directional_albedo(const String& brdf, const Vector2& alpha,

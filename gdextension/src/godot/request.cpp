@@ -192,6 +192,35 @@ std::vector<double> Request::numbers(std::string_view key) const {
   return read;
 }
 
+std::vector<std::string> Request::texts(std::string_view key) const {
+  std::vector<std::string> read;
+  if (!has(key)) return read;
+  const Variant& value = values_[key_variant(key)];
+  constexpr const char* kWanted = "an Array of Strings";
+  if (value.get_type() != Variant::ARRAY) refuse(key, value, kWanted);
+  const godot::Array array = value;
+  const std::int64_t count = array.size();
+  for (std::int64_t i = 0; i < count; ++i) {
+    if (!is_text(array[i])) refuse(key, value, kWanted);
+    read.push_back(to_std(array[i]));
+  }
+  return read;
+}
+
+double Request::real(std::string_view key, double fallback) const {
+  if (!has(key)) return fallback;
+  const Variant& value = values_[key_variant(key)];
+  const std::optional<double> read = number(value);
+  if (!read) refuse(key, value, "a number");
+  return *read;
+}
+
+bool Request::says(std::string_view key, std::string_view text) const {
+  if (!has(key)) return false;
+  const Variant& value = values_[key_variant(key)];
+  return is_text(value) && to_std(value) == text;
+}
+
 bool Request::has(std::string_view key) const { return values_.has(key_variant(key)); }
 
 glm::ivec2 Request::counts(std::string_view key, const glm::ivec2& fallback) const {

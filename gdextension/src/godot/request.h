@@ -32,7 +32,12 @@ class Request {
   glm::dvec2 widths(std::string_view key, const glm::dvec2& fallback) const;
   // An Array of numbers; none where the key is not there.
   std::vector<double> numbers(std::string_view key) const;
+  // An Array of Strings; none where the key is not there.
+  std::vector<std::string> texts(std::string_view key) const;
+  double real(std::string_view key, double fallback) const;
   bool has(std::string_view key) const;
+  // Whether the key is there and its value is this text.
+  bool says(std::string_view key, std::string_view text) const;
   // A Vector2i, a Vector2 or an Array of two whole numbers.
   glm::ivec2 counts(std::string_view key, const glm::ivec2& fallback) const;
 
