@@ -170,8 +170,8 @@ func get_lookup() -> Vector4:
 	return Vector4(u_scale, 0.5 / views.x, v_scale, 0.5 / height)
 
 
-## The column of an elevation in radians, from 0 to [code]views.x - 1[/code]; whole numbers are views
-## of the grid.
+## The column of an elevation in radians, from 0 to [code]views.x - 1[/code]; whole numbers are
+## views of the grid.
 func get_column(elevation: float) -> float:
 	return (1.0 - sqrt(maxf(1.0 - elevation / MAX_VIEW_ANGLE, 0.0))) * (views.x - 1)
 
