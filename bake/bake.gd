@@ -8,6 +8,7 @@ const OPTIONS: PackedStringArray = [
 	"lobes",
 	"views",
 	"method",
+	"refine",
 	"seed",
 	"threads",
 	"out",
@@ -52,6 +53,10 @@ func _recipe() -> Dictionary:
 		recipe = _read_recipe(_arguments.path("recipe"))
 	if _arguments.has("method"):
 		recipe["method"] = _arguments.text("method")
+	if _arguments.has("refine"):
+		recipe["refine"] = _arguments.text("refine") == "yes"
+		if _arguments.text("refine") not in ["yes", "no"]:
+			_arguments.fail("--refine is yes or no, not %s." % _arguments.text("refine"))
 	var measured: bool = recipe.get("brdf") is String and CommandLine.is_measured(recipe["brdf"])
 	if measured and (recipe["brdf"] as String).is_relative_path():
 		# A recipe's files lie where the recipe lies.
@@ -167,6 +172,7 @@ func _summary(result: Dictionary, out: String) -> Dictionary:
 		"lobes": result["lobes"],
 		"views": [result["views"].x, result["views"].y],
 		"method": result["method"],
+		"refine": result["refine"],
 		"bytes": (result["data"] as PackedByteArray).size(),
 		"seconds": result["seconds"],
 		"iterations": Array(result["iterations"]),

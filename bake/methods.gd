@@ -7,7 +7,7 @@ const Gmm := preload("comparators/gmm.gd")
 const Toral := preload("comparators/toral.gd")
 
 const REFERENCE := "reference"
-## Drawn, besides `gmm<lobes>` and the reference.
+## Drawn, besides `gmm<lobes>`, `gmm<lobes>r` and the reference.
 const RIVALS: PackedStringArray = ["fis8", "fis16", "fis40", "fis40g", "toral8", "toral16"]
 ## Named in the contract, built later.
 const PLANNED: PackedStringArray = ["allfreq1", "allfreq8", "asg", "majoraxis8", "closed8", "stock"]
@@ -17,10 +17,10 @@ const PLANNED: PackedStringArray = ["allfreq1", "allfreq8", "asg", "majoraxis8",
 static func error(method: String) -> String:
 	if method in PLANNED:
 		return "method %s: not available yet." % method
-	if method == REFERENCE or method in RIVALS or _number_after("gmm", method) > 0:
+	if method == REFERENCE or method in RIVALS or _gmm_lobes(method) > 0:
 		return ""
 	return (
-		"method %s is unknown; the methods are gmm<lobes> (gmm4, gmm8, gmm16 …), %s and reference."
+		"method %s is unknown; the methods are gmm<lobes>, gmm<lobes>r (gmm8, gmm8r …), %s and reference."
 		% [method, ", ".join(RIVALS)]
 	)
 
@@ -29,7 +29,7 @@ static func error(method: String) -> String:
 static func make(method: String, brdf: String, alpha: PackedFloat64Array) -> ComparisonMethod:
 	var made: ComparisonMethod
 	if method.begins_with("gmm"):
-		made = Gmm.make(_number_after("gmm", method))
+		made = Gmm.make(_gmm_lobes(method), method.ends_with("r"))
 	elif method.begins_with("fis"):
 		made = Fis.make(_number_after("fis", method.trim_suffix("g")), method.ends_with("g"))
 	elif method.begins_with("toral"):
@@ -39,6 +39,10 @@ static func make(method: String, brdf: String, alpha: PackedFloat64Array) -> Com
 		made.brdf = brdf
 		made.alpha = alpha
 	return made
+
+
+static func _gmm_lobes(method: String) -> int:
+	return _number_after("gmm", method.trim_suffix("r"))
 
 
 # 0 where the name is not `family` and a whole number.

@@ -1,18 +1,20 @@
 extends ComparisonMethod
-## `gmm<N>`: this project's own, N lobes of a [LobeTable].
+## `gmm<N>`: this project's own, N lobes of a [LobeTable]; `gmm<N>r` refines them.
 
 var lobes: int
+var refine: bool
 var table: LobeTable
 
 
-static func make(count: int) -> ComparisonMethod:
+static func make(count: int, is_refined: bool) -> ComparisonMethod:
 	var method := new()
 	method.lobes = count
+	method.refine = is_refined
 	return method
 
 
 func prepare(stage: ComparisonStage) -> String:
-	var recipe := {"brdf": brdf, "alpha": Array(alpha), "lobes": lobes}
+	var recipe := {"brdf": brdf, "alpha": Array(alpha), "lobes": lobes, "refine": refine}
 	var result := await NativeLibrary.run(
 		NativeLibrary.create(&"LobeBaker"), recipe, "baking %s" % name, stage.tree
 	)

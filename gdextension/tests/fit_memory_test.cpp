@@ -26,6 +26,7 @@ TEST_CASE("A fit needs no more memory than the formula says, and not much less")
           recipe.views = {4, 4};
           recipe.lobes = lobes;
           recipe.method = method;
+          recipe.refine = lobes == 8;
           recipe.threads = threads;
           FitOptions options;
           options.nodes_per_axis = nodes;

@@ -31,6 +31,8 @@ const REFUSED := [
 	["views", Vector2i(100000, 1), "views is (100000, 1)"],
 	["method", "guess", '"guess"'],
 	["method", 1, "method is 1 (int)"],
+	["refine", 1, "refine is 1 (int), but must be true or false."],
+	["refine", "yes", 'refine is "yes" (String)'],
 	["seed", -1, "seed is -1 (int)"],
 	["seed", 0.5, "seed is 0.5 (float)"],
 	["threads", "all", 'threads is "all" (String)'],
@@ -72,6 +74,7 @@ func test_result_has_the_documented_shape() -> void:
 				"lobes",
 				"views",
 				"method",
+				"refine",
 				"seed",
 				"width",
 				"height",
@@ -87,6 +90,7 @@ func test_result_has_the_documented_shape() -> void:
 	assert_int(table.lobes).is_equal(2)
 	assert_that(table.views).is_equal(Vector2i(4, 3))
 	assert_str(table.method).is_equal("continuation")
+	assert_bool(table.refine).is_false()
 	assert_int(table.seed).is_equal(0)
 	assert_int(table.width).is_equal(4)
 	assert_int(table.height).is_equal(2 * 3)
@@ -97,6 +101,19 @@ func test_result_has_the_documented_shape() -> void:
 	assert_int(table.iterations.size()).is_equal(4 * 3)
 	assert_int(typeof(table.log_likelihood)).is_equal(TYPE_PACKED_FLOAT32_ARRAY)
 	assert_int(table.log_likelihood.size()).is_equal(4 * 3)
+
+
+func test_refinement_changes_lobes_and_keeps_the_albedo() -> void:
+	var recipe := {"brdf": "ward", "alpha": 0.2, "lobes": 4, "views": [3, 1]}
+	var plain := LobeBaker.new().bake(recipe)
+	recipe["refine"] = false
+	assert_array(LobeBaker.new().bake(recipe).data).is_equal(plain.data)
+	recipe["refine"] = true
+	var refined := LobeBaker.new().bake(recipe)
+	assert_bool(refined.refine).is_true()
+	assert_array(refined.data).is_not_equal(plain.data)
+	for view in 3:
+		assert_float(_weight_sum(refined, view)).is_equal_approx(_weight_sum(plain, view), 2e-3)
 
 
 func test_data_is_an_image() -> void:
@@ -118,11 +135,8 @@ func test_weights_add_up_to_the_albedo() -> void:
 	for brdf: String in ["ward", "ward_bounded", "ggx"]:
 		var recipe := {"brdf": brdf, "alpha": 0.2, "lobes": 4, "views": [3, 1]}
 		var table := LobeBaker.new().bake(recipe)
-		var bytes: PackedByteArray = table.data
 		for t in 3:
-			var sum := 0.0
-			for lobe in 4:
-				sum += bytes.decode_half((lobe * 3 + t) * 8 + 6)
+			var sum := _weight_sum(table, t)
 			var angle := deg_to_rad(89.4) * (1.0 - (1.0 - t / 2.0) ** 2)
 			var view := Vector3(sin(angle), 0, cos(angle))
 			var albedo := LobeBaker.directional_albedo(brdf, Vector2(0.2, 0.2), view)
@@ -228,6 +242,7 @@ func test_auto_says_what_it_cannot_do() -> void:
 	assert_str(message).contains("The target of 46 dB is out of reach with up to 32 lobes")
 	for wrong: Array in [
 		[{"lobes": "auto", "target": 60}, "target is 60"],
+		[{"lobes": "auto", "refine": true}, 'refine is true, but "auto"'],
 		[{"lobes": "auto", "target": "good"}, 'target is "good" (String)'],
 		[{"lobes": "auto", "environments": "hall.exr"}, "an Array of Strings"],
 		[{"lobes": "auto", "environments": ["res://nowhere.exr"]}, "nowhere.exr"],
@@ -256,6 +271,16 @@ func test_albedo_of_smooth_ward_is_nearly_one() -> void:
 	# At normal incidence Ward reflects everything but what leaves by the wide tail.
 	var albedo := LobeBaker.directional_albedo("ward", Vector2(0.05, 0.05), Vector3(0, 0, 3))
 	assert_float(albedo).is_between(0.98, 1.0)
+
+
+# Of the lobes of an isotropic table in the view of column `t`.
+func _weight_sum(table: Dictionary, t: int) -> float:
+	var bytes: PackedByteArray = table.data
+	var width: int = table.width
+	var sum := 0.0
+	for lobe: int in table.lobes:
+		sum += bytes.decode_half((lobe * width + t) * 8 + 6)
+	return sum
 
 
 func _assert_one_sentence(message: String) -> void:

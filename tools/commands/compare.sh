@@ -6,7 +6,7 @@ usage() {
   cat <<USAGE
 usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out DIR [OPTIONS]
 
---methods       gmm<lobes> (gmm4, gmm8, gmm16 …)
+--methods       gmm<lobes> (gmm4, gmm8, gmm16 …); gmm<lobes>r: with refined lobes
                 fis8 fis16 fis40: filtered importance sampling on 2x2 means; fis40g: on the pyramid of gmm
                 toral8 toral16: the thesis as written
                 reference: with itself

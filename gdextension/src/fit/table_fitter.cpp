@@ -14,6 +14,7 @@
 #include "brdf/measured.h"
 #include "fit/channel_weights.h"
 #include "fit/initial_guess.h"
+#include "fit/refinement.h"
 #include "table/half_vector.h"
 
 namespace lobelight {
@@ -49,6 +50,10 @@ class TableFit {
     if (recipe.method == FitMethod::continuation) {
       fits_ += options_.smoothing_passes * (elevations() - 2) * azimuths();
     }
+    if (recipe.refine) {
+      const bool smoothed = recipe.method == FitMethod::continuation;
+      fits_ += (smoothed ? 2 * elevations() - 2 : elevations()) * azimuths();
+    }
     progress_.set(0.0);
   }
 
@@ -76,6 +81,13 @@ class TableFit {
 
   // Fits view (t, p) from `start`, or from Töral's guess when it is empty, and stores the lobes.
   Mixture fit_view(int t, int p, Mixture start, std::vector<Mirror> mirrors, int max_iterations);
+
+  // Refines a column's views, then the inner ones once more from what smooth_column() starts from.
+  void refine_column(int p, const std::vector<std::vector<Mirror>>& mirrors);
+
+  // Refines view (t, p) from `start` on (fit/refinement.h), and stores the lobes.
+  void refine_view(int t, int p, Mixture start, const std::vector<Mirror>& mirrors,
+                   int max_iterations);
 
   void count_fit();
 
@@ -114,6 +126,34 @@ Mixture TableFit::fit_view(int t, int p, Mixture start, std::vector<Mirror> mirr
   return std::move(result.mixture);
 }
 
+void TableFit::refine_view(int t, int p, Mixture start, const std::vector<Mirror>& mirrors,
+                           int max_iterations) {
+  progress_.throw_if_cancelled();
+  const glm::dvec3 o = table_.view(t, p);
+  const Slice slice = sample_slice(brdf_, o, options_.nodes_per_axis, rotation_);
+  lift_above_horizon(start);
+  RefinementOptions refinement;
+  refinement.max_iterations = max_iterations;
+  refinement.weight_floor = options_.em.weight_floor;
+  refinement.kappa_max = options_.em.kappa_max;
+  refinement.mirrors = mirrors;
+  refinement.progress = &progress_;
+  const RefinementResult result = refine(slice, std::move(start), refinement);
+  table_.set_mixture_at_view(t, p, result.mixture);
+  if (table_.has_second_texels()) {
+    std::vector<double> weights;
+    for (const Lobe& lobe : result.mixture) weights.push_back(lobe.weight);
+    table_.set_channel_weights_at_view(
+        t, p,
+        channel_weights(channel_node_weights(brdf_, o, slice),
+                        drawn_log_densities(slice, result.mixture), weights));
+  }
+  const auto view = static_cast<std::size_t>(p * elevations() + t);
+  report_.iterations[view] += result.iterations;
+  if (!result.log_likelihood.empty()) report_.log_likelihood[view] = result.log_likelihood.back();
+  count_fit();
+}
+
 void TableFit::count_fit() {
   const std::lock_guard<std::mutex> lock(finished_mutex_);
   ++finished_;
@@ -125,6 +165,9 @@ void TableFit::fit_independently() {
     const int t = static_cast<int>(view) % elevations();
     const int p = static_cast<int>(view) / elevations();
     fit_view(t, p, {}, {}, options_.em.max_iterations);
+    if (recipe_.refine) {
+      refine_view(t, p, table_.mixture_at_view(t, p), {}, options_.refinement_iterations);
+    }
   });
 }
 
@@ -181,6 +224,9 @@ void TableFit::fit_column(int p, const Mixture& pole, const std::vector<Mirror>&
     previous = fit_view(t, p, std::move(start), ties, options_.em.max_iterations);
   }
   smooth_column(p, mirrors);
+  if (!recipe_.refine) return;
+  mirrors[0] = pole_mirrors;
+  refine_column(p, mirrors);
 }
 
 void TableFit::smooth_column(int p, const std::vector<std::vector<Mirror>>& mirrors) {
@@ -192,6 +238,22 @@ void TableFit::smooth_column(int p, const std::vector<std::vector<Mirror>>& mirr
         fit_view(t, p, std::move(start), mirrors[static_cast<std::size_t>(t)],
                  std::min(kSmoothingIterations, options_.em.max_iterations));
       }
+    }
+  }
+}
+
+void TableFit::refine_column(int p, const std::vector<std::vector<Mirror>>& mirrors) {
+  // The lobes at the pole are the same in every column; they are refined anew for each, with the
+  // same result.
+  for (int t = 0; t < elevations(); ++t) {
+    refine_view(t, p, table_.mixture_at_view(t, p), mirrors[static_cast<std::size_t>(t)],
+                options_.refinement_iterations);
+  }
+  // Views part on the way, and tables would gain less between views than at them.
+  for (const int first : {1, 2}) {
+    for (int t = first; t < elevations() - 1; t += 2) {
+      refine_view(t, p, table_.smoothed_mixture_at_view(t, p), mirrors[static_cast<std::size_t>(t)],
+                  options_.refinement_iterations / 2);
     }
   }
 }

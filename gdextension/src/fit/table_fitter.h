@@ -28,6 +28,9 @@ struct Recipe {
   // Elevations × azimuths; 0 = default: 16 × 1 for isotropic materials, 16 × 8 for others.
   glm::ivec2 views{0, 0};
   FitMethod method = FitMethod::continuation;
+  // Whether the lobes are fitted to what is drawn in their place after they have been fitted as
+  // Gaussians (fit/refinement.h).
+  bool refine = false;
   std::uint64_t seed = 0;
   int threads = 0;  // zero or negative: every core
 };
@@ -48,7 +51,8 @@ glm::ivec2 resolve_views(const Recipe& recipe);
 struct FitReport {
   double seconds = 0.0;
   std::vector<int> iterations;
-  std::vector<double> log_likelihood;    // final, mean over the slice's mass in nats
+  // Final, mean over the slice's mass in nats: of the Gaussians or, refined, of what is drawn.
+  std::vector<double> log_likelihood;
   std::vector<double> first_view_curve;  // log-likelihood of view (0, 0), iteration by iteration
 };
 
@@ -66,6 +70,8 @@ struct FitOptions {
   // two neighbours in table coordinates (continuation only; 0 leaves it out). Half-way between
   // views this lowers the mean L1 error by up to a fifth and the worst one by up to half.
   int smoothing_passes = 3;
+  // Of each view of a recipe that says `refine`; half as many once more where views are smoothed.
+  int refinement_iterations = 20;
 };
 
 // What FitOptions::em.longest_step is at most while lobes are carried on from view to view: short

@@ -43,6 +43,10 @@ bool asks_for_count(const Request& request) { return request.says("lobes", "auto
 
 LobeCountRequest read_count_request(const Request& request, const Recipe& recipe) {
   LobeCountRequest count;
+  if (recipe.refine) {
+    throw std::invalid_argument(
+        "refine is true, but \"auto\" counts Gaussians: lobes must be a number.");
+  }
   count.recipe = recipe;
   count.target = request.real("target", count.target);
   for (const std::string& path : request.texts("environments")) {
@@ -63,6 +67,7 @@ Recipe read_recipe(const Request& request) {
   if (!asks_for_count(request)) recipe.lobes = request.integer("lobes", recipe.lobes);
   recipe.views = request.counts("views", recipe.views);
   recipe.method = fit_method_from_string(request.text("method", to_string(recipe.method)));
+  recipe.refine = request.truth("refine", recipe.refine);
   recipe.seed = request.unsigned_integer("seed", recipe.seed);
   recipe.threads = request.integer("threads", recipe.threads);
   validate(recipe);
@@ -85,6 +90,7 @@ Dictionary to_dictionary(const LobeTable& table, const FitReport& report, const 
   result["lobes"] = table.lobes();
   result["views"] = to_godot(table.views());
   result["method"] = to_godot(to_string(recipe.method));
+  result["refine"] = recipe.refine;
   result["seed"] = recipe.seed;
   result["width"] = table.width();
   result["height"] = table.height();
@@ -166,9 +172,9 @@ LobeTask::Work LobeBaker::prepare(const Dictionary& recipe) const {
       return bake_set(recipe, progress);
     };
   }
-  const Request request(
-      recipe, "a recipe",
-      {"brdf", "alpha", "lobes", "views", "method", "seed", "threads", "target", "environments"});
+  const Request request(recipe, "a recipe",
+                        {"brdf", "alpha", "lobes", "views", "method", "refine", "seed", "threads",
+                         "target", "environments"});
   const Recipe read = read_recipe(request);
   if (asks_for_count(request)) {
     return [count = read_count_request(request, read)](Progress& progress) {

@@ -164,6 +164,13 @@ std::uint64_t Request::unsigned_integer(std::string_view key, std::uint64_t fall
   return static_cast<std::uint64_t>(*read);
 }
 
+bool Request::truth(std::string_view key, bool fallback) const {
+  if (!values_.has(key_variant(key))) return fallback;
+  const Variant& value = values_[key_variant(key)];
+  if (value.get_type() != Variant::BOOL) refuse(key, value, "true or false");
+  return static_cast<bool>(value);
+}
+
 glm::dvec2 Request::widths(std::string_view key, const glm::dvec2& fallback) const {
   if (!values_.has(key_variant(key))) return fallback;
   const Variant& value = values_[key_variant(key)];

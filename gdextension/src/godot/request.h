@@ -28,6 +28,8 @@ class Request {
   int integer(std::string_view key, int fallback) const;
   std::uint64_t unsigned_integer(std::string_view key, std::uint64_t fallback) const;
 
+  bool truth(std::string_view key, bool fallback) const;
+
   // A Vector2, a Vector2i, an Array of two numbers, or one number that stands for both.
   glm::dvec2 widths(std::string_view key, const glm::dvec2& fallback) const;
   // An Array of numbers; none where the key is not there.
