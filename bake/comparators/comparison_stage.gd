@@ -17,6 +17,8 @@ var tree: SceneTree
 var panorama: Texture2D
 ## A key of [constant FILTERS]: how the project's own pyramid is made.
 var filter := "disc"
+## Tables that were baked, by their recipes; several comparisons can share them.
+var tables: Dictionary[String, LobeTable] = {}
 ## Of toral: the share c of a lobe that the texels of its level cover (the thesis' alpha). 0.47, or
 ## 1 - exp(-2 / pi), makes their variance the lobe's.
 var toral_coverage := 0.47

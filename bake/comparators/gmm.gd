@@ -15,12 +15,15 @@ static func make(count: int, is_refined: bool) -> ComparisonMethod:
 
 func prepare(stage: ComparisonStage) -> String:
 	var recipe := {"brdf": brdf, "alpha": Array(alpha), "lobes": lobes, "refine": refine}
-	var result := await NativeLibrary.run(
-		NativeLibrary.create(&"LobeBaker"), recipe, "baking %s" % name, stage.tree
-	)
-	if result.has("error"):
-		return result["error"]
-	table = LobeTable.from_baked(result)
+	var key := str(recipe)
+	if not stage.tables.has(key):
+		var result := await NativeLibrary.run(
+			NativeLibrary.create(&"LobeBaker"), recipe, "baking %s" % name, stage.tree
+		)
+		if result.has("error"):
+			return result["error"]
+		stage.tables[key] = LobeTable.from_baked(result)
+	table = stage.tables[key]
 	return await stage.light_materials()
 
 

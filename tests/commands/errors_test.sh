@@ -140,6 +140,9 @@ refuses "test, an unknown group" "no-such-group" test no-such-group
 refuses "stability, an unknown option" "--colour" stability --colour red
 refuses "stability, an unknown group" "no-such-group" stability --group no-such-group
 refuses "stability, JSON in a missing folder" "missing/cases.json" stability --quick --json missing/cases.json
+refuses "accuracy, a map that is not there" "no such map" accuracy --quick --maps absent.exr
+refuses "accuracy, a size out of range" "--size" accuracy --size 4
+refuses "accuracy, an unknown option" "--frames" accuracy --frames 3
 refuses "an unknown command" "no-such-command" no-such-command
 refuses "a command that comes later" "not available yet" report
 

@@ -1,0 +1,67 @@
+extends SceneTree
+## Many comparisons in one run of the engine, for `./dev accuracy`.
+##
+## `--list FILE` is JSON: {"env", "brdf", "alpha", "methods", "size", "samples", "timing_rounds",
+## "out"} for each [Comparison], paths absolute. Those of one map follow one another best, since a
+## map's pyramid is kept while the next comparison needs it; tables are kept throughout. After each,
+## a line "compared INDEX" goes to standard output.
+
+var _arguments := CommandLine.new("accuracy", ["list"])
+var _stage: ComparisonStage
+var _environment_path := ""
+var _tables: Dictionary[String, LobeTable] = {}
+
+
+func _initialize() -> void:
+	# The first frame has to be over before a coroutine may await the next one.
+	_run.call_deferred()
+
+
+func _run() -> void:
+	_arguments.required("list")
+	_arguments.fail_if(NativeLibrary.error())
+	var list: Variant = null
+	if _arguments.error.is_empty():
+		list = JSON.parse_string(FileAccess.get_file_as_string(_arguments.path("list")))
+	if list is Array:
+		var entries: Array = list
+		for index in entries.size():
+			await _compare(entries[index])
+			if not _arguments.error.is_empty():
+				break
+			print("compared %d" % index)
+	else:
+		_arguments.fail("%s: not a list of comparisons." % _arguments.text("list"))
+	if not _arguments.error.is_empty():
+		printerr(_arguments.error_line())
+	_stage = null
+	quit(0 if _arguments.error.is_empty() else 1)
+
+
+func _compare(entry: Dictionary) -> void:
+	var comparison := Comparison.new()
+	comparison.environment_path = entry["env"]
+	comparison.brdf = entry["brdf"]
+	comparison.alpha = PackedFloat64Array(entry["alpha"] as Array)
+	comparison.names = PackedStringArray(entry["methods"] as Array)
+	comparison.size = int(entry["size"] as float)
+	comparison.samples = int(entry["samples"] as float)
+	comparison.timing_rounds = int(entry["timing_rounds"] as float)
+	comparison.out = entry["out"]
+	for method in comparison.names:
+		_arguments.fail_if(CompareMethods.error(method))
+	_light(comparison.environment_path)
+	comparison.stage = _stage
+	if _arguments.error.is_empty():
+		_arguments.fail_if(await comparison.run())
+
+
+func _light(path: String) -> void:
+	if path == _environment_path:
+		return
+	var panorama := Comparison.load_panorama(path)
+	_arguments.fail_if(panorama.get("error", ""))
+	_stage = ComparisonStage.new(self)
+	_stage.panorama = panorama.get("texture")
+	_stage.tables = _tables
+	_environment_path = path

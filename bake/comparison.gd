@@ -1,0 +1,146 @@
+class_name Comparison
+extends RefCounted
+## One sphere drawn by several methods and by the reference integrator.
+##
+## Writes reference.exr, reference_error.exr, <method>.exr and plan.json, which says what was drawn
+## and how; tools/compare/metrics.py turns them into figures and pictures.
+
+## Rounds in which the GPU time of every method is measured once.
+const TIMING_ROUNDS := 15
+
+## The absolute path of the panorama that [member stage] has.
+var environment_path: String
+var brdf: String
+var alpha: PackedFloat64Array
+## The methods, as [CompareMethods] knows them.
+var names: PackedStringArray
+## Pixels along the side.
+var size := 256
+## Of the reference, a pixel; 0 leaves it to the integrator.
+var samples := 0
+var timing_rounds := TIMING_ROUNDS
+## The absolute path of the folder for the files.
+var out: String
+var stage: ComparisonStage
+
+
+## Draws, measures and writes. Returns one sentence on failure, otherwise empty. To be awaited.
+func run() -> String:
+	var methods: Array[ComparisonMethod] = []
+	for name in names:
+		if name == CompareMethods.REFERENCE:
+			continue
+		var method := CompareMethods.make(name, brdf, alpha)
+		var failure := await method.prepare(stage)
+		if not failure.is_empty():
+			return failure
+		methods.append(method)
+	return await _compare(methods)
+
+
+## The panorama of a file as [member ComparisonStage.panorama] wants it: {"texture"} or {"error"}.
+static func load_panorama(path: String) -> Dictionary:
+	var panorama := NativeLibrary.load_panorama(path)
+	if panorama.has("error"):
+		return panorama
+	var pixels: PackedFloat32Array = panorama["pixels"]
+	var image := Image.create_from_data(
+		panorama["width"], panorama["height"], false, Image.FORMAT_RGBF, pixels.to_byte_array()
+	)
+	return {"texture": ImageTexture.create_from_image(image)}
+
+
+func _compare(methods: Array[ComparisonMethod]) -> String:
+	var reference := await ReferenceCache.render(_reference_options(), stage.tree)
+	if reference.has("error"):
+		return reference["error"]
+	if DirAccess.make_dir_recursive_absolute(out) != OK:
+		return "%s: the folder cannot be made." % out
+	var failure := _save("reference", reference["pixels"])
+	if failure.is_empty():
+		failure = _save("reference_error", reference["standard_error"])
+	var viewports: Dictionary[String, LinearViewport] = {}
+	for method in methods:
+		if failure.is_empty():
+			viewports[method.name] = _make_viewport(method)
+			failure = await _draw(method.name, viewports[method.name])
+	if failure.is_empty():
+		var times := await _measure(viewports)
+		var plan := {
+			"env": environment_path,
+			"brdf": brdf,
+			"alpha": Array(alpha),
+			"size": size,
+			"renderer": RenderingServer.get_current_rendering_method(),
+			"driver": RenderingServer.get_video_adapter_name(),
+			"reference_samples": reference["samples"],
+			"methods": _entries(methods, times),
+		}
+		failure = AtomicFile.save_json(plan, out.path_join("plan.json"))
+	for name: String in viewports:
+		viewports[name].free()
+	return failure
+
+
+## What plan.json says of each method, in the order of [member names].
+func _entries(
+	methods: Array[ComparisonMethod], times: Dictionary[String, PackedFloat32Array]
+) -> Array[Dictionary]:
+	var entries: Array[Dictionary] = []
+	for name in names:
+		var entry := {"method": name, "fetches": 0, "probes": 0, "table_fetches": 0}
+		for method in methods:
+			if method.name == name:
+				entry.merge(method.cost(), true)
+				entry["settings"] = method.settings()
+		entry["gpu_ms_rounds"] = Array(times.get(name, PackedFloat32Array()))
+		entries.append(entry)
+	return entries
+
+
+func _reference_options() -> Dictionary:
+	var options := {"env": environment_path, "brdf": brdf, "alpha": Array(alpha), "size": size}
+	if samples > 0:
+		options["samples"] = samples
+	return options
+
+
+func _make_viewport(method: ComparisonMethod) -> LinearViewport:
+	var viewport := LinearViewport.new(size)
+	stage.tree.root.add_child(viewport)
+	viewport.add_child(method.make_sphere())
+	return viewport
+
+
+## Saves what a viewport shows. Returns one sentence on failure, otherwise empty.
+func _draw(title: String, viewport: LinearViewport) -> String:
+	# Drivers compile in the background: the first frames may lack the material.
+	await viewport.measure_gpu_time(2)
+	var picture := await viewport.capture()
+	picture.convert(Image.FORMAT_RGBF)
+	return _save(title, picture.get_data().to_float32_array())
+
+
+## GPU milliseconds of every method, one a round: all of them in each round, so that what disturbs
+## the machine disturbs all of them alike. Empty where the driver gives no times.
+func _measure(
+	viewports: Dictionary[String, LinearViewport]
+) -> Dictionary[String, PackedFloat32Array]:
+	var times: Dictionary[String, PackedFloat32Array] = {}
+	if viewports.is_empty() or timing_rounds == 0:
+		return times
+	for name: String in viewports:
+		times[name] = PackedFloat32Array()
+	var line := ProgressLine.new("timing")
+	for round_index in timing_rounds:
+		line.show(float(round_index) / timing_rounds)
+		for name: String in viewports:
+			var measured := await viewports[name].measure_gpu_time(3, 3)
+			if not measured.is_empty():
+				times[name].append(LinearViewport.median(measured))
+	line.finish()
+	return times
+
+
+func _save(title: String, pixels: PackedFloat32Array) -> String:
+	return NativeLibrary.save_exr(out.path_join(title + ".exr"), size, size, pixels)
