@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What refinement gains: ./dev compare with gmm8 and gmm8r on the maps that are named, material by material.
 
-    tools/compare/refinement.py MAP… [--size N] [--json FILE]
+    python3 tools/compare/refinement.py MAP… [--size N] [--json FILE]
 
 Prints dB without and with refinement for each map and material, and the mean gain of each material. The figures in the
 class reference are those of the maps in demo/environments and tests/data and of three that are not in the repository.
