@@ -87,7 +87,8 @@ void fit(Record& record, const Recipe& recipe, const FitOptions& options) {
       .set("method", to_string(recipe.method))
       .set("seconds", report.seconds)
       .set("iterations", *std::max_element(report.iterations.begin(), report.iterations.end()))
-      .set("iteration_limit", options.em.max_iterations)
+      .set("iteration_limit",
+           options.em.max_iterations + options.smoothing_passes * kSmoothingIterations)
       .set("log_likelihood", report.log_likelihood)
       .set("kappa_max", options.em.kappa_max)
       .set("views", views)

@@ -66,9 +66,9 @@ struct FitOptions {
   bool keep_mirror_symmetry = true;
   // Lobes may wander on the way from view to view where many arrangements are about equally good,
   // and tables are then worse between views than at them. After the continuation, every inner view
-  // of a column is fitted again this often, for a few iterations from the mean of itself and its
-  // two neighbours in table coordinates (continuation only; 0 leaves it out). Half-way between
-  // views this lowers the mean L1 error by up to a fifth and the worst one by up to half.
+  // of a column is fitted again this often, for kSmoothingIterations from the mean of itself and
+  // its two neighbours in table coordinates (continuation only; 0 leaves it out). Half-way between
+  // views this lowers the worst L1 error by up to half.
   int smoothing_passes = 3;
   // Of each view of a recipe that says `refine`; half as many once more where views are smoothed.
   int refinement_iterations = 20;
