@@ -1,6 +1,7 @@
 extends GdUnitTestSuite
 ## LobeMaterial3D draws what its table says, on any mesh and with any camera.
 
+const LightRegistry := preload("res://addons/lobelight/runtime/light_registry.gd")
 const Kit := preload("support/render_kit.gd")
 const SIDE := 48
 const MIDDLE := 24
@@ -296,6 +297,18 @@ func test_engine_lights_add() -> void:
 	assert_float(with).is_greater(1.2 * without)
 
 
+func test_materials_may_be_made_on_threads() -> void:
+	# Not in tests/runtime: the storage of the engine's headless renderer is not made for threads.
+	var before: int = LightRegistry._materials.size()
+	var materials := _make_on_threads()
+	assert_int(LightRegistry._materials.size()).is_equal(before + 200)
+	# Some have been updated when they go, some not.
+	materials.resize(100)
+	await await_idle_frame()
+	materials.clear()
+	assert_int(LightRegistry._materials.size()).is_equal(before)
+
+
 func _middle() -> float:
 	var image: Image = await _view.capture()
 	return image.get_pixel(MIDDLE, MIDDLE).r
@@ -360,3 +373,21 @@ func _poor_mesh(kind: int, material: Material) -> MeshInstance3D:
 	mesh.surface_set_material(0, material)
 	source.mesh = mesh
 	return source
+
+
+func _make_on_threads() -> Array:
+	var make := func() -> Array:
+		var materials := []
+		for i in 50:
+			var material := LobeMaterial3D.new()
+			material.emission = Color(0.01 * i, 0.0, 0.0)
+			materials.append(material)
+		return materials
+	var threads: Array[Thread] = []
+	for i in 4:
+		threads.append(Thread.new())
+		threads[i].start(make)
+	var all := []
+	for thread in threads:
+		all.append_array(thread.wait_to_finish())
+	return all

@@ -124,32 +124,3 @@ func test_materials_of_a_kind_share_their_shader() -> void:
 	second.table = _make_table(5, 1)
 	await await_idle_frame()
 	assert_bool(first._shader == second._shader).is_false()
-
-
-func test_materials_may_be_made_on_threads() -> void:
-	var before: int = LightRegistry._materials.size()
-	var materials := _make_on_threads()
-	assert_int(LightRegistry._materials.size()).is_equal(before + 200)
-	# Some have been updated when they go, some not.
-	materials.resize(100)
-	await await_idle_frame()
-	materials.clear()
-	assert_int(LightRegistry._materials.size()).is_equal(before)
-
-
-func _make_on_threads() -> Array:
-	var make := func() -> Array:
-		var materials := []
-		for i in 50:
-			var material := LobeMaterial3D.new()
-			material.emission = Color(0.01 * i, 0.0, 0.0)
-			materials.append(material)
-		return materials
-	var threads: Array[Thread] = []
-	for i in 4:
-		threads.append(Thread.new())
-		threads[i].start(make)
-	var all := []
-	for thread in threads:
-		all.append_array(thread.wait_to_finish())
-	return all

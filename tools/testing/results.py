@@ -157,6 +157,9 @@ def total(arguments: argparse.Namespace) -> int:
     print()
     for outcome in outcomes:
         print(Outcome(**outcome).summary())
+        # Once more, for who sees only the end of a long log.
+        for problem in outcome["problems"]:
+            print(f"  {problem}")
     print(f"{sums['passed']} passed, {sums['failed']} failed")
     return 1 if sums["failed"] or not sums["passed"] else 0
 

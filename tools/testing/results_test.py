@@ -117,12 +117,16 @@ class TotalTest(unittest.TestCase):
             paths = []
             for index, (passed, failed) in enumerate(counts):
                 paths.append(Path(folder) / f"{index}.json")
-                outcome = {"runner": "r", "log": "", "passed": passed, "failed": failed}
-                paths[-1].write_text(json.dumps({**outcome, "skipped": 0, "problems": []}), encoding="utf-8")
+                outcome = {"runner": "r", "log": "", "passed": passed, "failed": failed, "skipped": 0}
+                problems = [f"problem {i} of {index}" for i in range(failed)]
+                paths[-1].write_text(json.dumps({**outcome, "problems": problems}), encoding="utf-8")
             command = [sys.executable, str(RESULTS), "total", *map(str, paths), "--json", f"{folder}/sum"]
             result = subprocess.run(command, capture_output=True, text=True, check=False)
             written = json.loads(Path(f"{folder}/sum").read_text(encoding="utf-8"))
             self.assertEqual(written["passed"], sum(passed for passed, _failed in counts))
+            for index, (_passed, failed) in enumerate(counts):
+                for i in range(failed):
+                    self.assertIn(f"problem {i} of {index}", result.stdout)
             return result.returncode, result.stdout.splitlines()[-1]
 
     def test_sum(self) -> None:
