@@ -11,26 +11,11 @@
 #include "stability.h"
 #include "stability_em.h"
 #include "stability_materials.h"
+#include "table_errors.h"
 
 namespace lobelight::stability {
 
 namespace {
-
-// ∫ |m − f| / ∫ f for a mixture m scaled to the mass of the slice f: 2 ∫ max(0, f − m), which needs
-// nodes only where f is. They are not those that the mixture was fitted to.
-double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture) {
-  const Slice slice = sample_slice(brdf, o, 48, 0.5);
-  const double scale = slice.albedo / total_weight(mixture);
-  double sum = 0.0;
-  for (std::size_t n = 0; n < slice.weights.size(); ++n) {
-    const glm::dvec3& i = slice.directions[n];
-    const double value = brdf.evaluate(i, o) * i.z;
-    if (value > 0.0) {
-      sum += slice.weights[n] * std::max(0.0, 1.0 - scale * evaluate(mixture, i) / value);
-    }
-  }
-  return 2.0 * sum / slice.albedo;
-}
 
 void fit_slice(Record& record, const Material& material, const View& view, int lobes, int nodes) {
   describe(record, material, view);

@@ -8,6 +8,7 @@
 
 #include "fit/table_fitter.h"
 #include "statistics.h"
+#include "table_errors.h"
 
 namespace lobelight {
 namespace {
@@ -27,20 +28,6 @@ Recipe small_recipe(const char* brdf, const glm::dvec2& alpha, FitMethod method)
 LobeTable fit(const Recipe& recipe, FitReport* report = nullptr, const FitOptions& options = {}) {
   Progress progress;
   return fit_table(recipe, progress, report, options);
-}
-
-// ∫ |m − f| / ∫ f for a mixture m scaled to the slice's mass: 2 ∫ max(0, f − m), which needs nodes
-// only where f is.
-double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture) {
-  const Slice slice = sample_slice(brdf, o, 48);
-  const double scale = slice.albedo / total_weight(mixture);
-  double sum = 0.0;
-  for (std::size_t n = 0; n < slice.weights.size(); ++n) {
-    const glm::dvec3& i = slice.directions[n];
-    const double value = brdf.evaluate(i, o) * i.z;
-    sum += slice.weights[n] * std::max(0.0, 1.0 - scale * evaluate(mixture, i) / value);
-  }
-  return 2.0 * sum / slice.albedo;
 }
 
 TEST_CASE("The same recipe gives the same bytes with any number of threads") {

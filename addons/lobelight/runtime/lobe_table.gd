@@ -55,9 +55,8 @@ const MAX_LOBES := 32
 ## slope_y / alpha_y, log2(kappa (o.h)), weight), the slopes being those of the half-vector h
 ## between the view o and the lobe's mean; the weights of a view add up to its albedo.
 ## [br][br]
-## Below these rows there may be as many of second texels, (p, q, tint_r, tint_b): p and q are 0 for
-## round lobes, and the weights in red, green and blue are the weight times tint_r,
-## 3 - tint_r - tint_b and tint_b.
+## Below these rows there may be as many of second texels, (0, 0, tint_r, tint_b): the weights in
+## red, green and blue are the weight times tint_r, 3 - tint_r - tint_b and tint_b.
 @export var image: Image:
 	set(value):
 		image = value

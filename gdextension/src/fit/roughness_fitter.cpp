@@ -20,8 +20,6 @@ namespace lobelight {
 
 namespace {
 
-constexpr double kGoldenRatioFraction = 0.61803398874989484820;
-
 // The recipe of the one table from which all others of its kind descend.
 Recipe table_recipe(const SetRecipe& set, const glm::dvec2& alpha, const glm::ivec2& views) {
   Recipe recipe;
@@ -86,8 +84,7 @@ class SetFit {
   SetFit(const SetRecipe& recipe, std::vector<std::uint16_t> texels, Progress& progress)
       : recipe_(recipe), layout_(recipe), texels_(std::move(texels)), progress_(progress) {
     texels_.resize(layout_.total());
-    const double turns = static_cast<double>(recipe.seed % 1048576) * kGoldenRatioFraction;
-    rotation_ = turns - std::floor(turns);
+    rotation_ = seed_rotation(recipe.seed);
   }
 
   std::vector<std::uint16_t> run();
@@ -203,11 +200,9 @@ std::vector<std::uint16_t> SetFit::fit(int table) {
     }
     // As in the table that all descend from.
     for (int pass = 0; pass < FitOptions().smoothing_passes; ++pass) {
-      for (const int first : {1, 2}) {
-        for (int t = first; t < views.x - 1; t += 2) {
-          fit_view(*brdf, result, t, p, result.smoothed_mixture_at_view(t, p),
-                   mirrors[static_cast<std::size_t>(t)], kSmoothingIterations);
-        }
+      for (const int t : smoothing_order(views.x)) {
+        fit_view(*brdf, result, t, p, result.smoothed_mixture_at_view(t, p),
+                 mirrors[static_cast<std::size_t>(t)], kSmoothingIterations);
       }
     }
   }

@@ -12,6 +12,11 @@ constexpr double kGoldenRatioFraction = 0.61803398874989484820;
 
 }  // namespace
 
+double seed_rotation(std::uint64_t seed) {
+  const double turns = static_cast<double>(seed % 1048576) * kGoldenRatioFraction;
+  return turns - std::floor(turns);
+}
+
 Slice sample_slice(const Brdf& brdf, const glm::dvec3& o, int nodes_per_axis, double rotation) {
   // A Kronecker lattice: u.x in equal steps, u.y turned by the golden ratio from node to node. It
   // fills one quadrant of u.y and is reflected into the other three, because the samplers map

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Slice {
 // x = 0 when o_x = 0. `rotation` ∈ [0, 1) turns the points among themselves and keeps that.
 Slice sample_slice(const Brdf& brdf, const glm::dvec3& o, int nodes_per_axis = 64,
                    double rotation = 0.0);
+
+// The rotation that a recipe's seed stands for.
+double seed_rotation(std::uint64_t seed);
 
 // Whether a node can take part in a fit: its weight is finite and above 0, its direction finite and
 // of unit length within 1e-6. Measured data may hold anything; sample_slice(), initial_guess() and

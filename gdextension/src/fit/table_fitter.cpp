@@ -21,8 +21,6 @@ namespace lobelight {
 
 namespace {
 
-constexpr double kGoldenRatioFraction = 0.61803398874989484820;
-
 [[noreturn]] void refuse(const std::ostringstream& sentence) {
   throw std::invalid_argument(sentence.str());
 }
@@ -40,8 +38,7 @@ class TableFit {
         table_(brdf.alpha(), recipe.lobes, resolve_views(recipe, brdf.is_isotropic())) {
     if (brdf.is_coloured()) table_.add_second_texels();
     options_.em.progress = &progress;
-    const double turns = static_cast<double>(recipe.seed % 1048576) * kGoldenRatioFraction;
-    rotation_ = turns - std::floor(turns);
+    rotation_ = seed_rotation(recipe.seed);
     const auto views =
         static_cast<std::size_t>(elevations()) * static_cast<std::size_t>(azimuths());
     report_.iterations.assign(views, 0);
@@ -231,13 +228,11 @@ void TableFit::fit_column(int p, const Mixture& pole, const std::vector<Mirror>&
 
 void TableFit::smooth_column(int p, const std::vector<std::vector<Mirror>>& mirrors) {
   for (int pass = 0; pass < options_.smoothing_passes; ++pass) {
-    for (const int first : {1, 2}) {  // every other view, then those between them
-      for (int t = first; t < elevations() - 1; t += 2) {
-        Mixture start = table_.smoothed_mixture_at_view(t, p);
-        lift_above_horizon(start);
-        fit_view(t, p, std::move(start), mirrors[static_cast<std::size_t>(t)],
-                 std::min(kSmoothingIterations, options_.em.max_iterations));
-      }
+    for (const int t : smoothing_order(elevations())) {
+      Mixture start = table_.smoothed_mixture_at_view(t, p);
+      lift_above_horizon(start);
+      fit_view(t, p, std::move(start), mirrors[static_cast<std::size_t>(t)],
+               std::min(kSmoothingIterations, options_.em.max_iterations));
     }
   }
 }
@@ -250,15 +245,21 @@ void TableFit::refine_column(int p, const std::vector<std::vector<Mirror>>& mirr
                 options_.refinement_iterations);
   }
   // Views part on the way, and tables would gain less between views than at them.
-  for (const int first : {1, 2}) {
-    for (int t = first; t < elevations() - 1; t += 2) {
-      refine_view(t, p, table_.smoothed_mixture_at_view(t, p), mirrors[static_cast<std::size_t>(t)],
-                  options_.refinement_iterations / 2);
-    }
+  for (const int t : smoothing_order(elevations())) {
+    refine_view(t, p, table_.smoothed_mixture_at_view(t, p), mirrors[static_cast<std::size_t>(t)],
+                options_.refinement_iterations / 2);
   }
 }
 
 }  // namespace
+
+std::vector<int> smoothing_order(int elevations) {
+  std::vector<int> order;
+  for (const int first : {1, 2}) {
+    for (int t = first; t < elevations - 1; t += 2) order.push_back(t);
+  }
+  return order;
+}
 
 void lift_above_horizon(Mixture& mixture) {
   constexpr double kMinHeight = 1e-3;

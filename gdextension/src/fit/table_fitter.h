@@ -75,13 +75,15 @@ struct FitOptions {
 };
 
 // What FitOptions::em.longest_step is at most while lobes are carried on from view to view: short
-// steps, so that lobes stay what they are. Half-way between views tables are up to a tenth better
-// than with 0.3, for a fifth more iterations.
+// steps, so that lobes stay what they are.
 constexpr double kContinuationStep = 0.1;
 
 // How many iterations a view is given when it is smoothed: so few that the lobes stay where they
 // were put as far as the likelihood does not care.
 constexpr int kSmoothingIterations = 10;
+
+// The order in which a column's inner views are smoothed: every other one, then those between them.
+std::vector<int> smoothing_order(int elevations);
 
 // Lobes that start below the horizon, where a slice has no mass, are put just above it.
 void lift_above_horizon(Mixture& mixture);

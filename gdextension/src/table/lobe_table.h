@@ -27,11 +27,10 @@ class LobeTable {
   // What a texel holds: the half-vector's slopes divided by alpha, log2(κ (o·h)) and the weight.
   using Entry = glm::dvec4;
 
-  // What the second texel of a lobe holds, in tables that have one: (p, q, tint_r, tint_b).
-  // [[p, q], [q, −p]] is the logarithm of the lobe's covariance in whitened slopes, as far as it is
-  // not round. The channels' weights are w tint_r, w (3 − tint_r − tint_b) and w tint_b, w being
-  // the first texel's weight, which is their mean.
-  static constexpr Entry kPlain{0.0, 0.0, 1.0, 1.0};  // round and colourless
+  // What the second texel of a lobe holds, in tables that have one: (0, 0, tint_r, tint_b); the
+  // first two numbers are of no use yet. The channels' weights are w tint_r, w (3 − tint_r −
+  // tint_b) and w tint_b, w being the first texel's weight, which is their mean.
+  static constexpr Entry kPlain{0.0, 0.0, 1.0, 1.0};  // colourless
 
   // A table of zeros. `alpha` > 0, `lobes` ≥ 1, `views` = (T ≥ 2, P ≥ 1); throws
   // std::invalid_argument otherwise.
