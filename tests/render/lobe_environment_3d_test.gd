@@ -10,6 +10,7 @@ var _rebuilt := 0
 func before_test() -> void:
 	_rebuilt = 0
 	_environment = LobeEnvironment3D.new()
+	_environment.source = LobeEnvironment3D.Source.PANORAMA
 	_environment.rebuilt.connect(func() -> void: _rebuilt += 1)
 
 
@@ -76,12 +77,12 @@ func test_a_rebuild_overtaken_by_a_failure_ends_too() -> void:
 func test_freed_during_a_rebuild() -> void:
 	_environment.panorama = Kit.constant(1.0)
 	_environment.rebuild()
-	var pyramid: WeakRef = weakref(_environment._pyramid)
-	assert_object(pyramid.get_ref()).is_not_null()
+	var chain: WeakRef = weakref(_environment._chain)
+	assert_object(chain.get_ref()).is_not_null()
 	_environment.free()
 	await _frames(3)
 	assert_int(_rebuilt).is_equal(0)
-	assert_object(pyramid.get_ref()).is_null()
+	assert_object(chain.get_ref()).is_null()
 
 
 func test_without_a_panorama_there_is_no_light() -> void:

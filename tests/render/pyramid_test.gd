@@ -3,6 +3,7 @@ extends GdUnitTestSuite
 
 const Kit := preload("support/render_kit.gd")
 const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
+const PyramidChain := preload("res://addons/lobelight/runtime/pyramid_chain.gd")
 
 const FILTERS := [
 	[Pyramid.Filter.BOX],
@@ -151,10 +152,14 @@ func test_fine_panoramas_lose_no_light() -> void:
 
 
 func _build(panorama: Texture2D, size: int, filter: Pyramid.Filter) -> Array[Image]:
-	var pyramid := Pyramid.new()
-	pyramid.start(panorama, size, filter)
+	var chain := PyramidChain.new()
+	chain.pyramid.set_up_panorama(panorama, size, filter)
+	chain.make_cube()
+	chain.draw(-1)
 	await RenderingServer.frame_post_draw
-	var faces := pyramid.finish()
+	assert_bool(chain.receive(-1)).is_true()
+	# What materials sample, read back.
+	var faces: Array[Image] = chain.cube.get_faces()
 	assert_int(faces.size()).is_equal(6)
 	assert_int(faces[0].get_mipmap_count()).is_equal(roundi(log(size) / log(2.0)))
 	return faces

@@ -54,6 +54,7 @@ func test_energy_is_finite_and_not_negative() -> void:
 func test_warnings_in_the_editor() -> void:
 	var first := _make()
 	var second := _make()
+	first.source = LobeEnvironment3D.Source.PANORAMA
 	assert_int(first._get_configuration_warnings().size()).is_equal(1)
 	first.panorama = _panorama()
 	assert_array(first._get_configuration_warnings()).is_empty()

@@ -3,7 +3,7 @@ extends RefCounted
 ## The light of an environment as the shaders take it: a pyramid, a rotation and a factor.
 
 ## Half-float cube map with all its mip levels, linear radiance.
-var cubemap: Cubemap
+var cubemap: TextureLayered
 ## Texels along the side of a face.
 var size := 1
 ## How much the levels blur: c in shaders/environment.gdshaderinc.

@@ -4,9 +4,23 @@ class_name LobeEnvironment3D
 extends Node3D
 ## Where the light of [LobeMaterial3D]s comes from.
 ##
-## The node filters a panorama into a pyramid and hands it to all [LobeMaterial3D]s, which are lit
-## by it from the next frame on. Its rotation turns the light; its position and scale do not
-## matter. A hidden node gives no light.
+## The node filters its [member source] into a pyramid and hands it to all [LobeMaterial3D]s, which
+## are lit by it from the next frame on. A hidden node gives no light.
+## [br][br]
+## [b]The scene's sky[/b] is that of the [Environment] which the engine takes for the camera of the
+## node's viewport: the camera's own, else the world's. All kinds of skies are taken as a camera
+## sees them, with their rotation and energy, the suns of [DirectionalLight3D]s and fog; so are the
+## background's colours. Canvas, camera feed and [constant Environment.BG_KEEP] count as black,
+## [member Environment.sky_custom_fov] and volumetric fog as absent.
+## [br][br]
+## [b]Units.[/b] Light is linear, in the units of the scene, up to 65504 (half floats). In
+## Compatibility, skies and scenes are taken as the engine shows them there: it takes sky
+## colours and HDR panoramas for sRGB, so that they are not the same as in the other renderers, and
+## below 0.00084 they are black. A panorama of the node's is the same in all three.
+## [br][br]
+## [b]Cost.[/b] In Forward+ and Mobile, updates stay on the GPU. In Compatibility nothing can draw
+## into a cube map, so the faces are read back, which waits for the GPU: [constant TIME_SLICED] and
+## small sizes are advised there. [member update_gpu_time] and [member update_cpu_time] tell.
 ## [br][br]
 ## There is to be one per [World3D]; a second one waits until the first has left. Materials do not
 ## know worlds: with several worlds, all are lit by the environment that came last.
@@ -15,6 +29,35 @@ extends Node3D
 signal rebuilt
 ## A rebuild has ended, with a pyramid or, as [method get_rebuild_error] says, without.
 signal rebuild_finished
+
+## What the light is taken from.
+enum Source {
+	## [member panorama] if it is set, otherwise the scene's sky.
+	AUTOMATIC,
+	## The sky that the camera sees. The node's transform does not matter.
+	SKY,
+	## [member panorama], turned by the node's rotation. Its position and scale do not matter.
+	PANORAMA,
+	## The scene around the node's position, and its sky. The node's rotation does not matter.
+	## [LobeMaterial3D]s in the scene show the light of the update before.
+	CAPTURE,
+}
+
+## When the pyramid is made anew.
+enum UpdateMode {
+	## When the node enters the tree, when its own properties change, and by [method rebuild].
+	ONCE,
+	## Also when the source changes: another panorama or sky, any property of the
+	## [Environment]'s background and of the sky's material, and [DirectionalLight3D]s. Shaders that
+	## move by themselves (TIME) or with the camera (POSITION), and what happens in a
+	## captured scene, do not count; moving the node does, where it captures.
+	WHEN_CHANGED,
+	## In every frame.
+	EVERY_FRAME,
+	## All the time, spread over frames, see [method get_sliced_frames]. The light is replaced at the
+	## end of each turn.
+	TIME_SLICED,
+}
 
 ## How a level of the pyramid is made from the finer one.
 enum Filter {
@@ -31,14 +74,32 @@ enum Filter {
 }
 
 const EnvironmentLight := preload("environment_light.gd")
+const EnvironmentSource := preload("environment_source.gd")
 const LightRegistry := preload("light_registry.gd")
 const Pyramid := preload("pyramid.gd")
+const PyramidChain := preload("pyramid_chain.gd")
 
 const _GROUP := &"_lobelight_environments"
+# Frames without an update after which the memory for drawing is given back.
+const _IDLE_FRAMES := 120
+# What is drawn in one frame has no slices.
+const _WHOLE := -1
 
 # Counts the environments that have come, so that the first of a world can be told.
 static var _arrivals := 0
 
+## What the light is taken from.
+@export var source := Source.AUTOMATIC:
+	set(value):
+		source = value
+		_mark_stale()
+		notify_property_list_changed()
+		update_configuration_warnings()
+## When the pyramid is made anew.
+@export var update_mode := UpdateMode.WHEN_CHANGED:
+	set(value):
+		update_mode = value
+		_mark_stale()
 ## The surroundings, in the same projection as [PanoramaSkyMaterial]: +z in the middle, −z at the
 ## left and right edges. Linear light up to 65504; negative values and NaN count as dark. Formats
 ## of 8 bits are taken for sRGB.
@@ -47,47 +108,97 @@ static var _arrivals := 0
 		if panorama == value:
 			return
 		if panorama != null:
-			panorama.changed.disconnect(_queue_rebuild)
+			panorama.changed.disconnect(_on_panorama_changed)
 		panorama = value
 		if panorama != null:
-			panorama.changed.connect(_queue_rebuild)
-		_queue_rebuild()
+			panorama.changed.connect(_on_panorama_changed)
+		_mark_stale()
 		update_configuration_warnings()
 ## How the pyramid's levels are made.
 @export var filter := Filter.DISC:
 	set(value):
 		filter = value
-		_queue_rebuild()
-## Texels along the side of the cube map's faces. Automatic is half the panorama's width, rounded up
-## to a power of two, at most 512. Other values are rounded to a power of two.
+		_mark_stale()
+## Texels along the side of the cube map's faces. Automatic is 256, and for panoramas half their
+## width, rounded up to a power of two, at most 512. Other values are rounded to a power of two.
 @export_enum(
 	"Automatic:0", "32:32", "64:64", "128:128", "256:256", "512:512", "1024:1024", "2048:2048"
 )
 var size := 0:
 	set(value):
 		size = 0 if value <= 0 else clampi(nearest_po2(value), Pyramid.MIN_SIZE, Pyramid.MAX_SIZE)
-		_queue_rebuild()
+		_mark_stale()
 ## A factor for the light.
 @export_range(0.0, 16.0, 0.01, "or_greater") var energy := 1.0:
 	set(value):
 		energy = value if is_finite(value) and value > 0.0 else 0.0
 		_update_placement()
 
+@export_group("Capture", "capture_")
+## Layers of the scene that are captured.
+@export_flags_3d_render var capture_cull_mask := 0xFFFFF:
+	set(value):
+		capture_cull_mask = value
+		_mark_stale()
+## What is nearer than this along the axes is not captured, in metres.
+@export_range(0.001, 10.0, 0.001, "or_greater", "suffix:m") var capture_near := 0.05:
+	set(value):
+		capture_near = maxf(value, 0.001) if is_finite(value) else 0.05
+		_mark_stale()
+## What is farther than this along the axes is not captured, in metres.
+@export_range(0.01, 4000.0, 0.01, "or_greater", "suffix:m") var capture_far := 1000.0:
+	set(value):
+		capture_far = maxf(value, 0.01) if is_finite(value) else 1000.0
+		_mark_stale()
+
+@export_group("Cost")
+## Whether updates are measured. It costs a few queries of the GPU's clock per update.
+@export var measure_cost := false:
+	set(value):
+		measure_cost = value
+		_mark_stale()
+## Milliseconds of the GPU for an update, some frames late, without the copies into the cube map;
+## 0 if it is not measured. An update that is spread over frames takes it in all.
+@export var update_gpu_time: float:
+	get:
+		return _chain.get_gpu_time() if _chain != null and measure_cost else _gpu_time
+## Milliseconds of the processor for handing the last update to the cube map. In Compatibility it
+## contains the wait for the GPU.
+@export var update_cpu_time: float:
+	get:
+		return _cpu_time
+## Frames that the last update was drawn in.
+@export var update_frames: int:
+	get:
+		return _frames
+
 var _arrival := 0
 var _light: EnvironmentLight
 var _error := ""
 # Whether the light is older than the properties.
 var _stale := true
-var _queued := false
-# What is being drawn. Not a variable of rebuild(), which would keep it for ever if the node were
-# freed meanwhile.
-var _pyramid: Pyramid
-# Counts rebuilds, so that one that has been overtaken can tell.
-var _generation := 0
+var _source := EnvironmentSource.new(self)
+var _chain: PyramidChain
+# Of the update under way: whether there is one, which slice comes next, and whether it is drawn.
+var _running := false
+var _slice := _WHOLE
+var _drawn := false
+var _idle := 0
+# Whether the node lights its world, and from what its light was made.
+var _active := false
+var _light_kind := EnvironmentSource.Kind.NONE
+# What the last update cost.
+var _gpu_time := 0.0
+var _cpu_time := 0.0
+var _frames := 0
 
 
 func _init() -> void:
 	set_notify_transform(true)
+	# Servers load scenes without a renderer and need no light.
+	if Pyramid.has_renderer():
+		RenderingServer.frame_pre_draw.connect(_on_frame_pre_draw)
+		RenderingServer.frame_post_draw.connect(_on_frame_post_draw)
 
 
 func _notification(what: int) -> void:
@@ -102,11 +213,10 @@ func _notification(what: int) -> void:
 				push_warning(
 					"LobeEnvironment3D: %s waits, another one lights its world." % get_path()
 				)
-			if _stale:
-				_queue_rebuild()
 		NOTIFICATION_EXIT_WORLD:
 			remove_from_group(_GROUP)
 			LightRegistry.withdraw(get_instance_id())
+			_leave_world()
 			for other in _get_others():
 				other._check_in.call_deferred()
 		NOTIFICATION_VISIBILITY_CHANGED:
@@ -115,13 +225,22 @@ func _notification(what: int) -> void:
 				other._check_in()
 		NOTIFICATION_TRANSFORM_CHANGED:
 			_update_placement()
+			if source == Source.CAPTURE and update_mode == UpdateMode.WHEN_CHANGED:
+				_mark_stale()
 		NOTIFICATION_PREDELETE:
 			LightRegistry.withdraw(get_instance_id())
 
 
+func _validate_property(property: Dictionary) -> void:
+	if property.name in ["update_gpu_time", "update_cpu_time", "update_frames"]:
+		property.usage = PROPERTY_USAGE_EDITOR | PROPERTY_USAGE_READ_ONLY
+	elif property.name.begins_with("capture_") and source != Source.CAPTURE:
+		property.usage &= ~PROPERTY_USAGE_EDITOR
+
+
 func _get_configuration_warnings() -> PackedStringArray:
 	var warnings: PackedStringArray = []
-	if panorama == null:
+	if source == Source.PANORAMA and panorama == null:
 		warnings.append("Set a panorama; until then LobeMaterial3Ds show a neutral map.")
 	if is_inside_tree() and not is_active() and is_visible_in_tree():
 		warnings.append("Another LobeEnvironment3D lights this world; this one waits for it to go.")
@@ -139,8 +258,15 @@ func is_active() -> bool:
 
 
 ## The pyramid as six half-float faces with mip levels; [code]null[/code] until it has been made.
-func get_cubemap() -> Cubemap:
+## It is a [Cubemap] in Compatibility, otherwise a [TextureCubemapRD].
+func get_cubemap() -> TextureLayered:
 	return _light.cubemap if _light != null else null
+
+
+## Frames in which [constant TIME_SLICED] makes the pyramid anew: 8 with views of a sky or a scene,
+## 2 with a panorama; 6 more in Compatibility. 0 until the first update.
+func get_sliced_frames() -> int:
+	return _chain.get_slices() if _chain != null else 0
 
 
 ## Why the last [method rebuild] made no pyramid, in a sentence; empty if it did.
@@ -148,87 +274,128 @@ func get_rebuild_error() -> String:
 	return _error
 
 
-## Makes the pyramid anew. Changing a property does so by itself; call it when the panorama's
-## contents have changed. It takes until the end of a frame: [code]await
+## Makes the pyramid anew, in one frame. Changing a property does so by itself; call it when the
+## contents of textures have changed. It takes until the end of a frame: [code]await
 ## environment.rebuild()[/code] gives false if it could not be done, with the reason in
 ## [method get_rebuild_error].
 func rebuild() -> bool:
-	_queued = false
+	if not _begin(_WHOLE):
+		_warn_of_error()
+		return false
+	# Not for the node's own signal, so that the caller may free it then. A later call may start the
+	# update anew; its result is this one's too.
+	while _running:
+		await RenderingServer.frame_post_draw
+	return _light != null
+
+
+func _mark_stale() -> void:
+	_stale = true
+
+
+func _on_panorama_changed() -> void:
+	if update_mode != UpdateMode.ONCE:
+		_mark_stale()
+
+
+# All the frame's changes have been made by now.
+func _on_frame_pre_draw() -> void:
+	if is_inside_tree() and not _running:
+		_start_if_due()
+	if _running:
+		_chain.draw(_slice)
+		_drawn = true
+		_idle = 0
+	elif _chain != null:
+		_idle += 1
+		if _idle > _IDLE_FRAMES or update_mode == UpdateMode.ONCE and not measure_cost:
+			_gpu_time = update_gpu_time
+			_chain = null
+
+
+func _start_if_due() -> void:
+	var is_live := update_mode == UpdateMode.EVERY_FRAME or update_mode == UpdateMode.TIME_SLICED
+	if not _stale:
+		# Without a light there is something in the way, which only a property can change.
+		if _light == null or not _active or update_mode == UpdateMode.ONCE:
+			return
+		if _light_kind == EnvironmentSource.Kind.SKY_PANORAMA:
+			_update_placement()
+		_stale = is_live or _source.look()
+		if not _stale:
+			return
+	var is_sliced := update_mode == UpdateMode.TIME_SLICED and _light != null
+	if not _begin(0 if is_sliced else _WHOLE):
+		_warn_of_error()
+
+
+# Starts an update from its first slice, instead of one under way.
+func _begin(slice: int) -> bool:
 	_stale = false
-	_generation += 1
-	var generation := _generation
-	_pyramid = null
-	_error = _find_obstacle()
+	_running = false
+	_error = _source.find_obstacle()
 	if _error:
-		if panorama != null:
-			push_warning("LobeEnvironment3D: " + _error)
+		_chain = null
 		_set_light(null)
 		return false
-
-	_pyramid = Pyramid.new()
-	var face_size := size if size > 0 else Pyramid.automatic_size(panorama)
-	var used_filter := filter as Pyramid.Filter
-	_pyramid.start(panorama, face_size, used_filter)
-	await RenderingServer.frame_post_draw
-	if generation != _generation:
-		# A later call is at it, or has been; its result is this one's too.
-		while _pyramid != null:
-			await rebuild_finished
-		return _light != null
-	var faces := _pyramid.finish()
-	_pyramid = null
-	if faces.is_empty():
-		_error = "The renderer did not draw the pyramid."
-		push_warning("LobeEnvironment3D: " + _error)
-		_set_light(null)
-		return false
-
-	var light := EnvironmentLight.new()
-	light.cubemap = Cubemap.new()
-	light.cubemap.create_from_images(faces)
-	light.size = face_size
-	light.level_variance = Pyramid.LEVEL_VARIANCES[used_filter]
-	light.is_even = Pyramid.is_round(used_filter)
-	_set_light(light)
+	_source.look()
+	_chain = _source.make_chain(_chain)
+	_slice = slice
+	_running = true
+	_drawn = false
 	return true
 
 
-func _find_obstacle() -> String:
-	if panorama == null:
-		return "There is no panorama."
-	if not Pyramid.has_renderer():
-		return "There is no renderer to make the pyramid with: the engine runs headless."
-	if panorama.get_width() < 1 or panorama.get_height() < 1:
-		return "The panorama is empty."
-	return ""
+# A panorama that is not set yet is no reason to warn.
+func _warn_of_error() -> void:
+	if panorama != null or source == Source.SKY or source == Source.CAPTURE:
+		push_warning("LobeEnvironment3D: " + _error)
+
+
+func _on_frame_post_draw() -> void:
+	if not _running or not _drawn:
+		return
+	_drawn = false
+	if not _chain.receive(_slice):
+		_running = false
+		_chain = null
+		_error = "The renderer did not draw the pyramid."
+		push_warning("LobeEnvironment3D: " + _error)
+		_set_light(null)
+		return
+	if _slice != _WHOLE:
+		_slice += 1
+		if _slice < _chain.get_slices():
+			return
+	_running = false
+	_frames = 1 if _slice == _WHOLE else _slice
+	_cpu_time = _chain.transfer_time
+	_light_kind = _source.get_kind()
+	_set_light(_chain.get_light())
 
 
 func _set_light(light: EnvironmentLight) -> void:
+	var is_other := light != _light
 	_light = light
 	_update_placement()
-	_check_in()
+	if is_other:
+		_check_in()
 	if light != null:
 		rebuilt.emit()
 	rebuild_finished.emit()
 
 
-# Several changed properties make one rebuild.
-func _queue_rebuild() -> void:
-	_stale = true
-	if _queued or not is_inside_tree():
+# What has been drawn of another world's light is of no use.
+func _leave_world() -> void:
+	_active = false
+	if _light_kind == EnvironmentSource.Kind.PANORAMA and not _running:
 		return
-	_queued = true
-	_rebuild_queued.call_deferred()
-
-
-func _rebuild_queued() -> void:
-	# A call of rebuild() may have come before.
-	if not _queued:
-		return
-	_queued = false
-	# Servers load scenes without a renderer and need no light.
-	if is_inside_tree() and (Pyramid.has_renderer() or panorama == null):
-		rebuild()
+	if _source.leave_world():
+		_stale = true
+		_chain = null
+		if _running:
+			_running = false
+			rebuild_finished.emit()
 
 
 # Offers the light, or takes it back, as it is the node's turn or not.
@@ -236,19 +403,16 @@ func _check_in() -> void:
 	if not is_inside_tree():
 		return
 	update_configuration_warnings()
-	if _light != null and is_active():
+	_active = is_active()
+	if _light != null and _active:
 		LightRegistry.offer(get_instance_id(), _light)
 	else:
 		LightRegistry.withdraw(get_instance_id())
 
 
 func _update_placement() -> void:
-	if _light == null:
-		return
-	_light.energy = energy
-	if is_inside_tree():
-		_light.rotation = global_basis.orthonormalized()
-	LightRegistry.update_placement(get_instance_id())
+	if _light != null and _source.place(_light, _light_kind):
+		LightRegistry.update_placement(get_instance_id())
 
 
 # The other environments of the same world.

@@ -1,0 +1,181 @@
+@tool
+extends RefCounted
+## Where the light of a [LobeEnvironment3D] comes from at the moment: which of the ways to get at it
+## is taken, whether it has changed, and the chain that draws it.
+
+## A panorama of the node's, the panorama of a sky, views of a sky, views of the scene.
+enum Kind { NONE, PANORAMA, SKY_PANORAMA, SKY_VIEWS, SCENE_VIEWS }
+
+const EnvironmentLight := preload("environment_light.gd")
+const Pyramid := preload("pyramid.gd")
+const PyramidChain := preload("pyramid_chain.gd")
+const SixViews := preload("six_views.gd")
+const SkyStage := preload("sky_stage.gd")
+const Surroundings := preload("surroundings.gd")
+
+## Where nothing says how fine the light is.
+const DEFAULT_SIZE := 256
+# Pixels of a view along the side of a texel. Skies have suns of few texels; scenes cost more.
+const _SKY_SAMPLES := 2
+const _SCENE_SAMPLES := 1
+# The sky has no depth.
+const _SKY_NEAR := 0.05
+const _SKY_FAR := 10.0
+
+var _node: LobeEnvironment3D
+var _kind := Kind.NONE
+var _surroundings: Surroundings
+var _stage: SkyStage
+# What the last chain was made for.
+var _key: Array = []
+
+
+func _init(node: LobeEnvironment3D) -> void:
+	_node = node
+
+
+## Why there is no light to be had, in a sentence; empty if there is.
+func find_obstacle() -> String:
+	var panorama := _node.panorama
+	if not _takes_panorama() and not _node.is_inside_tree():
+		if _node.source == LobeEnvironment3D.Source.AUTOMATIC:
+			return "There is no panorama, and the node is in no world whose sky it could take."
+		return "The node is in no world whose light it could take."
+	if _takes_panorama() and panorama == null:
+		return "There is no panorama."
+	if not Pyramid.has_renderer():
+		return "There is no renderer to make the pyramid with: the engine runs headless."
+	if _takes_panorama() and (panorama.get_width() < 1 or panorama.get_height() < 1):
+		return "The panorama is empty."
+	return ""
+
+
+## Looks at the source as it is now; whether it shows something else than at the last look. A turned
+## sky panorama or another energy of it shows the same, see [method place].
+func look() -> bool:
+	var kind := _find_kind()
+	var changed := kind != _kind
+	if changed:
+		_kind = kind
+		_stage = null
+		_surroundings = null
+	if kind >= Kind.SKY_PANORAMA and _surroundings == null:
+		_surroundings = Surroundings.new(_node, kind == Kind.SCENE_VIEWS)
+	if kind == Kind.SKY_VIEWS and _stage == null:
+		_stage = SkyStage.new(_node)
+	if kind >= Kind.SKY_VIEWS:
+		changed = _surroundings.update() or changed
+	if _stage != null:
+		changed = _stage.update() or changed
+	return _make_key() != _key or changed
+
+
+## What is being drawn; what stays the same is taken from [param chain], which may be null.
+func make_chain(chain: PyramidChain) -> PyramidChain:
+	var key := _make_key()
+	if chain != null and key == _key:
+		_place(chain.views)
+		return chain
+	_key = key
+	var filter := _node.filter as Pyramid.Filter
+	if _kind >= Kind.SKY_VIEWS:
+		var size: int = _node.size if _node.size > 0 else DEFAULT_SIZE
+		var is_sky := _kind == Kind.SKY_VIEWS
+		var samples := _SKY_SAMPLES if is_sky else _SCENE_SAMPLES
+		var world := _node.get_world_3d()
+		var scenario := _stage.scenario if is_sky else world.scenario
+		var owner: RefCounted = _stage if is_sky else world
+		var environment := _surroundings.copy
+		var views := SixViews.new(samples * size, scenario, owner, environment, not is_sky)
+		_place(views)
+		chain = PyramidChain.new(views)
+		chain.pyramid.set_up_views(views.get_textures(), samples, size, filter)
+	else:
+		var panorama := _find_panorama()
+		var size := _node.size if _node.size > 0 else Pyramid.automatic_size(panorama)
+		chain = PyramidChain.new()
+		chain.pyramid.set_up_panorama(panorama, size, filter, _kind == Kind.SKY_PANORAMA)
+		if not panorama.changed.is_connected(_node._on_panorama_changed):
+			panorama.changed.connect(_node._on_panorama_changed)
+	chain.make_cube()
+	if _node.measure_cost:
+		chain.measure()
+	return chain
+
+
+## Gives a light that was made from this kind of source its rotation and energy; whether they are
+## others than before.
+func place(light: EnvironmentLight, kind: Kind) -> bool:
+	var energy := _node.energy
+	var rotation := light.rotation if kind == Kind.PANORAMA else Basis.IDENTITY
+	if kind == Kind.PANORAMA and _node.is_inside_tree():
+		rotation = _node.global_basis.orthonormalized()
+	elif kind == Kind.SKY_PANORAMA and _surroundings != null:
+		if not _node.is_inside_tree() or _surroundings.find_panorama() == null:
+			return false
+		energy *= _surroundings.find_panorama_energy()
+		rotation = _surroundings.find_sky_rotation()
+	if light.energy == energy and light.rotation == rotation:
+		return false
+	light.energy = energy
+	light.rotation = rotation
+	return true
+
+
+func get_kind() -> Kind:
+	return _kind
+
+
+## To be called when the node leaves its world; whether its light has been that world's.
+func leave_world() -> bool:
+	_surroundings = null
+	_stage = null
+	return _kind != Kind.PANORAMA and _kind != Kind.NONE
+
+
+func _takes_panorama() -> bool:
+	if _node.source == LobeEnvironment3D.Source.AUTOMATIC:
+		return _node.panorama != null
+	return _node.source == LobeEnvironment3D.Source.PANORAMA
+
+
+func _find_kind() -> Kind:
+	if _takes_panorama():
+		return Kind.PANORAMA
+	if _node.source == LobeEnvironment3D.Source.CAPTURE:
+		return Kind.SCENE_VIEWS
+	# Compatibility takes the colours of skies for sRGB. What comes of that, views show.
+	if _is_compatibility():
+		return Kind.SKY_VIEWS
+	var surroundings := _surroundings if _surroundings != null else Surroundings.new(_node, false)
+	return Kind.SKY_VIEWS if surroundings.find_panorama() == null else Kind.SKY_PANORAMA
+
+
+func _find_panorama() -> Texture2D:
+	return _node.panorama if _kind == Kind.PANORAMA else _surroundings.find_panorama()
+
+
+func _make_key() -> Array:
+	if _kind >= Kind.SKY_VIEWS:
+		return [_kind, _node.size, _node.filter, _node.measure_cost]
+	var panorama := _find_panorama()
+	var texture := panorama.get_rid() if panorama != null else RID()
+	var width := panorama.get_width() if panorama != null else 0
+	return [_kind, _node.size, _node.filter, _node.measure_cost, texture, width]
+
+
+func _place(views: SixViews) -> void:
+	if _kind == Kind.SCENE_VIEWS:
+		views.place(
+			_node.global_position, _node.capture_near, _node.capture_far, _node.capture_cull_mask
+		)
+	elif _kind == Kind.SKY_VIEWS:
+		# From where the camera is, since shaders may ask.
+		var camera := _surroundings.find_camera()
+		var origin := camera.global_position if camera != null else _node.global_position
+		var mask := camera.cull_mask if camera != null else 0xFFFFF
+		views.place(origin, _SKY_NEAR, _SKY_FAR, mask)
+
+
+static func _is_compatibility() -> bool:
+	return RenderingServer.get_current_rendering_method() == "gl_compatibility"

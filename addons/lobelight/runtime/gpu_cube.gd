@@ -1,0 +1,62 @@
+@tool
+extends "pyramid_cube.gd"
+## A cube map that takes a pyramid's levels without leaving the GPU: Forward+ and Mobile.
+
+const CanvasPass := preload("canvas_pass.gd")
+const OwnedCubemap := preload("owned_cubemap.gd")
+
+# Bound to what it copies; made once.
+var _copy: Callable
+
+
+## Whether the renderer has what it takes.
+static func is_supported() -> bool:
+	return RenderingServer.get_rendering_device() != null
+
+
+func _init(size: int, levels: Array[CanvasPass]) -> void:
+	var format := RDTextureFormat.new()
+	format.texture_type = RenderingDevice.TEXTURE_TYPE_CUBE
+	format.format = RenderingDevice.DATA_FORMAT_R16G16B16A16_SFLOAT
+	format.width = size
+	format.height = size
+	format.array_layers = 6
+	format.mipmaps = levels.size()
+	format.usage_bits = (
+		RenderingDevice.TEXTURE_USAGE_SAMPLING_BIT
+		| RenderingDevice.TEXTURE_USAGE_CAN_COPY_TO_BIT
+		| RenderingDevice.TEXTURE_USAGE_CAN_COPY_FROM_BIT
+	)
+	var device := RenderingServer.get_rendering_device()
+	var cube := device.texture_create(format, RDTextureView.new())
+	texture = OwnedCubemap.new(cube)
+	var atlases: Array[RID] = []
+	for level in levels:
+		atlases.append(RenderingServer.texture_get_rd_texture(level.get_texture()))
+	# Of a static function, so that it may run after the object has gone.
+	_copy = _copy_levels.bind(cube, size, atlases)
+
+
+func receive(_slice: int) -> bool:
+	RenderingServer.call_on_render_thread(_copy)
+	return true
+
+
+func get_faces() -> Array[Image]:
+	var faces: Array[Image] = []
+	for face in 6:
+		faces.append(texture.get_layer_data(face))
+	return faces
+
+
+static func _copy_levels(cube: RID, size: int, atlases: Array[RID]) -> void:
+	var device := RenderingServer.get_rendering_device()
+	for level in atlases.size():
+		var side := size >> level
+		for face in 6:
+			@warning_ignore("integer_division")
+			var corner := Vector3(face % 3, face / 3, 0.0) * side
+			var extent := Vector3(side, side, 1.0)
+			device.texture_copy(
+				atlases[level], cube, corner, Vector3.ZERO, extent, 0, level, 0, face
+			)

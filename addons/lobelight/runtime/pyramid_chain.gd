@@ -1,0 +1,109 @@
+@tool
+extends RefCounted
+## From a source of light to a cube map: six views where there are any, the levels of the pyramid,
+## and the cube that takes them.
+##
+## An update is drawn in one frame, or in slices of one frame each: the views, levels 0 and 1, the
+## other levels, and in Compatibility the faces that are read back. The cube map changes with the
+## last slice. Updates allocate nothing on the GPU.
+
+const EnvironmentLight := preload("environment_light.gd")
+const GpuCube := preload("gpu_cube.gd")
+const PackedCube := preload("packed_cube.gd")
+const Pyramid := preload("pyramid.gd")
+const PyramidCube := preload("pyramid_cube.gd")
+const SixViews := preload("six_views.gd")
+
+## Null if the light comes from a panorama.
+var views: SixViews
+var pyramid := Pyramid.new()
+var cube: PyramidCube
+## Milliseconds that the processor spent on the last update's transfer to the cube map.
+var transfer_time := 0.0
+
+var _light: EnvironmentLight
+
+
+func _init(drawn_views: SixViews = null) -> void:
+	views = drawn_views
+
+
+## To be called once the pyramid has been set up.
+func make_cube() -> void:
+	if GpuCube.is_supported():
+		cube = GpuCube.new(pyramid.size, pyramid.levels)
+	else:
+		cube = PackedCube.new(pyramid.size, pyramid.levels)
+
+
+## Frames that an update takes if it is spread over frames.
+func get_slices() -> int:
+	var faces := 6 if views != null else 0
+	# What is not read back is taken with the last levels.
+	return faces + (2 if cube.slices == 1 else 2 + cube.slices)
+
+
+## Has a slice of an update drawn in the next frame; all of it if [param slice] is negative.
+func draw(slice: int) -> void:
+	var faces := 6 if views != null else 0
+	for face in faces:
+		if slice == face or slice < 0:
+			views.draw(face)
+	if slice < 0:
+		pyramid.draw()
+	elif slice == faces:
+		pyramid.draw(0, 1)
+	elif slice == faces + 1:
+		pyramid.draw(2)
+	for part in cube.slices:
+		if slice == faces + 2 + part or slice < 0:
+			cube.draw(part)
+
+
+## After the frame: takes what the slice has drawn. False if nothing was drawn.
+func receive(slice: int) -> bool:
+	var start := Time.get_ticks_usec()
+	var first := get_slices() - cube.slices
+	if slice <= first:
+		transfer_time = 0.0
+	var received := true
+	for part in cube.slices:
+		if slice == first + part or slice < 0:
+			received = cube.receive(part) and received
+	transfer_time += 0.001 * (Time.get_ticks_usec() - start)
+	return received
+
+
+## The light that the cube map gives, the same object every time.
+func get_light() -> EnvironmentLight:
+	if _light == null:
+		_light = EnvironmentLight.new()
+		_light.cubemap = cube.texture
+		_light.size = pyramid.size
+		_light.level_variance = Pyramid.LEVEL_VARIANCES[pyramid.filter]
+		_light.is_even = Pyramid.is_round(pyramid.filter)
+	return _light
+
+
+## Has the renderer measure what the draws take.
+func measure() -> void:
+	for viewport in _get_viewports():
+		RenderingServer.viewport_set_measure_render_time(viewport, true)
+
+
+## Milliseconds of the GPU for an update, as last measured; it comes some frames late.
+func get_gpu_time() -> float:
+	var time := 0.0
+	for viewport in _get_viewports():
+		time += RenderingServer.viewport_get_measured_render_time_gpu(viewport)
+	return time
+
+
+func _get_viewports() -> Array[RID]:
+	var viewports: Array[RID] = []
+	if views != null:
+		viewports.append_array(views.viewports)
+	for level in pyramid.levels:
+		viewports.append(level.viewport)
+	viewports.append_array(cube.get_viewports())
+	return viewports

@@ -1,0 +1,82 @@
+@tool
+extends RefCounted
+## Six cameras that see everything around a point, for level 0 of a pyramid.
+##
+## They draw linear light up to 65504, and in Compatibility the engine's encoding of it. The views
+## stay, and drawing again allocates nothing. Everything on the rendering server is freed with the
+## object.
+
+## Of the shadows of omni and spot lights, as a [Viewport] has them.
+const _SHADOW_ATLAS := 2048
+const _SHADOW_SUBDIVISIONS: PackedInt32Array = [4, 4, 16, 64]
+# By face, in the order +X −X +Y −Y +Z −Z: a view's rows are the rows of the face.
+const _FORWARD: PackedVector3Array = [
+	Vector3.RIGHT, Vector3.LEFT, Vector3.UP, Vector3.DOWN, Vector3.BACK, Vector3.FORWARD
+]
+const _UP: PackedVector3Array = [
+	Vector3.UP, Vector3.UP, Vector3.FORWARD, Vector3.BACK, Vector3.UP, Vector3.UP
+]
+
+## Pixels along the side of a view.
+var size: int
+var viewports: Array[RID] = []
+
+var _cameras: Array[RID] = []
+# What the views need on the rendering server: kept until they have gone.
+var _kept: Array[RefCounted] = []
+
+
+## Views of a scenario, which lives as long as [param owner], and with shadows of omni and spot
+## lights if they are wanted.
+func _init(
+	side: int, scenario: RID, owner: RefCounted, environment: Environment, shadows: bool
+) -> void:
+	size = side
+	_kept = [owner, environment]
+	var server := RenderingServer
+	for face in 6:
+		var camera := server.camera_create()
+		server.camera_set_environment(camera, environment.get_rid())
+		_cameras.append(camera)
+		var viewport := server.viewport_create()
+		server.viewport_set_use_hdr_2d(viewport, true)
+		server.viewport_set_size(viewport, side, side)
+		server.viewport_set_scenario(viewport, scenario)
+		server.viewport_attach_camera(viewport, camera)
+		if shadows:
+			server.viewport_set_positional_shadow_atlas_size(viewport, _SHADOW_ATLAS, true)
+			for quadrant in 4:
+				server.viewport_set_positional_shadow_atlas_quadrant_subdivision(
+					viewport, quadrant, _SHADOW_SUBDIVISIONS[quadrant]
+				)
+		server.viewport_set_update_mode(viewport, RenderingServer.VIEWPORT_UPDATE_DISABLED)
+		server.viewport_set_active(viewport, true)
+		viewports.append(viewport)
+
+
+func _notification(what: int) -> void:
+	if what == NOTIFICATION_PREDELETE:
+		for rid in viewports + _cameras:
+			RenderingServer.free_rid(rid)
+
+
+## What the views see, from where. They are aligned with the world's axes.
+func place(origin: Vector3, near: float, far: float, cull_mask: int) -> void:
+	var server := RenderingServer
+	for face in 6:
+		var basis := Basis.looking_at(_FORWARD[face], _UP[face])
+		server.camera_set_transform(_cameras[face], Transform3D(basis, origin))
+		server.camera_set_perspective(_cameras[face], 90.0, near, far)
+		server.camera_set_cull_mask(_cameras[face], cull_mask)
+
+
+## Has a face's view drawn in the next frame.
+func draw(face: int) -> void:
+	RenderingServer.viewport_set_update_mode(viewports[face], RenderingServer.VIEWPORT_UPDATE_ONCE)
+
+
+func get_textures() -> Array[RID]:
+	var textures: Array[RID] = []
+	for viewport in viewports:
+		textures.append(RenderingServer.viewport_get_texture(viewport))
+	return textures
