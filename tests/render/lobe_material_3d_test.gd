@@ -26,7 +26,7 @@ func before() -> void:
 		var material := LobeMaterial3D.new()
 		material.table = Kit.make_odd_table(6, views, Vector2(0.2, 0.2))
 		_kept.append(material)
-	_kept.append(LobeMaterial3D.new())
+	_kept.append(_smooth_material())
 
 
 func after() -> void:
@@ -122,7 +122,7 @@ func test_impostor_and_mesh_agree() -> void:
 
 func test_neutral_light_without_environment() -> void:
 	_environment.free()
-	_view.add_child(Kit.make_sphere(LobeMaterial3D.new()))
+	_view.add_child(Kit.make_sphere(_smooth_material()))
 	var image: Image = await _view.capture()
 	var top := image.get_pixel(MIDDLE, 12)
 	var bottom := image.get_pixel(MIDDLE, 36)
@@ -132,7 +132,7 @@ func test_neutral_light_without_environment() -> void:
 
 
 func test_environments_take_turns() -> void:
-	var material := LobeMaterial3D.new()
+	var material := _smooth_material()
 	_view.add_child(Kit.make_sphere(material))
 	_environment.panorama = Kit.constant(0.5)
 	await _environment.rebuild()
@@ -158,6 +158,7 @@ func test_environments_take_turns() -> void:
 
 func test_properties_change_while_running() -> void:
 	var material := LobeMaterial3D.new()
+	material.table = LobeTable.make_single_lobe()
 	_view.add_child(Kit.make_sphere(material))
 	_environment.panorama = Kit.constant(1.0)
 	await _environment.rebuild()
@@ -287,7 +288,7 @@ func test_mirrored_mesh() -> void:
 func test_engine_lights_add() -> void:
 	_environment.panorama = Kit.constant(0.25)
 	await _environment.rebuild()
-	var material := LobeMaterial3D.new()
+	var material := _smooth_material()
 	material.albedo = Color(0.8, 0.8, 0.8)
 	_view.add_child(Kit.make_sphere(material))
 	var without := await _middle()
@@ -307,6 +308,13 @@ func test_materials_may_be_made_on_threads() -> void:
 	await await_idle_frame()
 	materials.clear()
 	assert_int(LightRegistry._materials.size()).is_equal(before)
+
+
+# A table of one lobe, whose shader is quickly compiled.
+func _smooth_material() -> LobeMaterial3D:
+	var material := LobeMaterial3D.new()
+	material.table = LobeTable.make_single_lobe()
+	return material
 
 
 func _middle() -> float:

@@ -2,6 +2,21 @@ extends GdUnitTestSuite
 ## LobeMaterial3D as a resource: variants, files, life time. What it draws, tests/render says.
 
 const FILES := [["user://material_test.tres"], ["user://material_test.res"]]
+const FEATURES: PackedStringArray = [
+	"ALBEDO_TEXTURE",
+	"ALPHA",
+	"ALPHA_HASH",
+	"AO",
+	"AO_TEXTURE",
+	"COAT_LOBES",
+	"DIELECTRIC",
+	"EMISSION",
+	"FLOWMAP",
+	"NORMAL_TEXTURE",
+	"ROUGHNESS_TEXTURE",
+	"UV_TRANSFORM",
+	"VERTEX_COLOUR",
+]
 const LightRegistry := preload("res://addons/lobelight/runtime/light_registry.gd")
 
 
@@ -19,20 +34,32 @@ func _texture() -> Texture2D:
 
 func test_variants_follow_the_properties() -> void:
 	var material := LobeMaterial3D.new()
-	assert_str(material.get_shader_code()).contains("#define LOBELIGHT_LOBES 1\n")
+	# The ready set.
+	assert_str(material.get_shader_code()).contains("#define LOBELIGHT_LOBES 8\n")
 	assert_str(material.get_shader_code()).contains("#define LOBELIGHT_ISOTROPIC\n")
 	material.table = _make_table(5, 2)
 	assert_str(material.get_shader_code()).contains("#define LOBELIGHT_LOBES 5\n")
 	assert_bool("LOBELIGHT_ISOTROPIC" in material.get_shader_code()).is_false()
 	# What is not used is not in the shader.
-	for feature: String in ["ALBEDO_TEXTURE", "NORMAL_TEXTURE", "EMISSION", "ANISOTROPY_ROTATION"]:
-		assert_bool(feature in material.get_shader_code()).is_false()
+	for feature: String in FEATURES:
+		(
+			assert_bool(feature in material.get_shader_code())
+			. append_failure_message(feature)
+			. is_false()
+		)
 	material.albedo_texture = _texture()
 	material.normal_texture = _texture()
 	material.emission = Color.RED
-	material.anisotropy_rotation = 0.3
-	for feature: String in ["ALBEDO_TEXTURE", "NORMAL_TEXTURE", "EMISSION", "ANISOTROPY_ROTATION"]:
-		assert_str(material.get_shader_code()).contains("#define LOBELIGHT_%s\n" % feature)
+	material.metallic = 0.0
+	material.clearcoat = 0.5
+	material.ao_texture = _texture()
+	material.roughness_texture = _texture()
+	material.anisotropy_flowmap = _texture()
+	material.transparency = LobeMaterial3D.Transparency.ALPHA_HASH
+	material.vertex_color_use_as_albedo = true
+	material.uv1_scale = Vector2(2.0, 2.0)
+	for feature: String in FEATURES:
+		assert_str(material.get_shader_code()).contains("#define LOBELIGHT_" + feature)
 	material.emission_energy = 0.0
 	assert_bool("EMISSION" in material.get_shader_code()).is_false()
 
@@ -83,7 +110,7 @@ func test_inspector_shows_no_shader() -> void:
 	for property in material.get_property_list():
 		if property["usage"] & (PROPERTY_USAGE_EDITOR | PROPERTY_USAGE_STORAGE):
 			shown.append(property["name"])
-	assert_array(shown).contains(["table", "albedo", "next_pass", "render_priority"])
+	assert_array(shown).contains(["table", "table_set", "albedo", "next_pass", "render_priority"])
 	assert_array(shown).not_contains(["shader"])
 	for name in shown:
 		assert_bool(name.begins_with("shader_parameter/")).is_false()
@@ -96,7 +123,7 @@ func test_copies_are_independent() -> void:
 	assert_object(copy.table).is_same(material.table)
 	copy.table = null
 	assert_str(material.get_shader_code()).contains("#define LOBELIGHT_LOBES 5\n")
-	assert_str(copy.get_shader_code()).contains("#define LOBELIGHT_LOBES 1\n")
+	assert_str(copy.get_shader_code()).contains("#define LOBELIGHT_LOBES 8\n")
 
 
 func test_materials_and_tables_are_freed() -> void:
@@ -124,3 +151,51 @@ func test_materials_of_a_kind_share_their_shader() -> void:
 	second.table = _make_table(5, 1)
 	await await_idle_frame()
 	assert_bool(first._shader == second._shader).is_false()
+
+
+func test_widths_are_godots() -> void:
+	# Burley 2012: r² / aspect and r² · aspect, aspect = sqrt(1 - 0.9 a).
+	for case: Array in [
+		[0.5, 0.0, Vector2(0.25, 0.25)],
+		[0.5, 1.0, Vector2(0.25 / sqrt(0.1), 0.25 * sqrt(0.1))],
+		[0.3, -1.0, Vector2(0.09 / sqrt(1.9), 0.09 * sqrt(1.9))],
+		[0.4, 1.1, Vector2(1.6, 0.016)],
+	]:
+		var widths := LobeMaterial3D.widths_of(case[0], case[1])
+		assert_vector(widths).is_equal_approx(case[2] as Vector2, 1e-5 * Vector2.ONE)
+		var back := LobeMaterial3D.Widths.to_roughness(widths)
+		assert_vector(back).is_equal_approx(Vector2(case[0], case[1]), 1e-5 * Vector2.ONE)
+	var turned := LobeMaterial3D.Widths.exchanged(-0.7)
+	var widths := LobeMaterial3D.widths_of(0.6, -0.7)
+	assert_vector(LobeMaterial3D.widths_of(0.6, turned)).is_equal_approx(
+		Vector2(widths.y, widths.x), 1e-5 * Vector2.ONE
+	)
+
+
+func test_equal_materials_share_their_table() -> void:
+	var first := LobeMaterial3D.new()
+	var second := LobeMaterial3D.new()
+	for material: LobeMaterial3D in [first, second]:
+		material.roughness = 0.35
+		material.anisotropy = 0.8
+		material.get_shader_code()
+	assert_object(first._choice.table).is_not_null()
+	assert_object(first._choice.table).is_same(second._choice.table)
+	assert_vector(first._choice.table.alpha).is_equal_approx(
+		LobeMaterial3D.widths_of(0.35, 0.8), 1e-3 * Vector2.ONE
+	)
+	second.roughness = 0.4
+	second.get_shader_code()
+	assert_bool(first._choice.table == second._choice.table).is_false()
+
+
+func test_fetches_are_counted() -> void:
+	var material := LobeMaterial3D.new()
+	assert_dict(material.get_fetches()).is_equal({"environment": 8, "table": 8, "samplers": 2})
+	material.roughness_texture = _texture()
+	assert_dict(material.get_fetches()).is_equal({"environment": 8, "table": 8, "samplers": 2})
+	material.anisotropy = 0.5
+	assert_dict(material.get_fetches()).is_equal({"environment": 8, "table": 16, "samplers": 2})
+	material.metallic = 0.0
+	material.clearcoat = 1.0
+	assert_dict(material.get_fetches()).is_equal({"environment": 20, "table": 24, "samplers": 3})

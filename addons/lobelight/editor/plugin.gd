@@ -3,4 +3,27 @@ extends EditorPlugin
 ## The editor's side of Lobelight.
 ##
 ## The types of the run time register themselves by their class names, and the
-## baker by the native library; so far nothing else has to be added to the editor.
+## baker by the native library; what is added here are conversions of materials.
+
+const MaterialConversionPlugin := preload("material_conversion_plugin.gd")
+const SceneConversionMenu := preload("scene_conversion_menu.gd")
+
+var _conversions: Array[MaterialConversionPlugin] = []
+var _scene_menu: SceneConversionMenu
+
+
+func _enter_tree() -> void:
+	for to_lobes: bool in [true, false]:
+		var conversion := MaterialConversionPlugin.new(to_lobes)
+		_conversions.append(conversion)
+		add_resource_conversion_plugin(conversion)
+	_scene_menu = SceneConversionMenu.new(get_undo_redo())
+	add_context_menu_plugin(EditorContextMenuPlugin.CONTEXT_SLOT_SCENE_TREE, _scene_menu)
+
+
+func _exit_tree() -> void:
+	for conversion in _conversions:
+		remove_resource_conversion_plugin(conversion)
+	_conversions.clear()
+	remove_context_menu_plugin(_scene_menu)
+	_scene_menu = null

@@ -2,56 +2,217 @@
 @icon("../icons/lobe_material_3d.svg")
 class_name LobeMaterial3D
 extends ShaderMaterial
-## A metal lit by its surroundings through the lobes of a [LobeTable].
+## A material lit by its surroundings through the lobes of its BRDF: metals, brushed ones too,
+## and everything that [StandardMaterial3D] draws with a diffuse colour.
 ##
-## The light comes from the active [LobeEnvironment3D]; without one, from a neutral map. The
-## engine's own lights add to it; its ambient and reflected light do not. The material is a metal:
-## [member albedo] is its colour at normal incidence, and nothing is diffuse.
+## The light comes from the active [LobeEnvironment3D]; without one, from a neutral map. Set
+## [member roughness] and [member anisotropy], and the lobes come from a [LobeTableSet];
+## [member table] has those of a single BRDF. Properties are named and behave as those of
+## [StandardMaterial3D], see [method widths_of] for where they go further.
 ## [br][br]
-## The shader is generated from the properties and shared by materials of the same kind. It is not
-## stored with the material, and neither [member ShaderMaterial.shader] nor shader parameters are to
-## be set on it.
+## Metals and all else send back the light they take: GGX, which loses light between its
+## microfacets, is compensated for it, and the diffuse colour gets what is not reflected.
+## [br][br]
+## What the engine makes of the material:
+## [br]- Its own lights, their shadows, and fog work as on any material. Its lights are not
+## compensated for lost energy, and in Compatibility, lights with shadows are added in sRGB.
+## [br]- Its ambient light, reflections of the sky, [ReflectionProbe]s, lightmaps, [VoxelGI] and
+## SDFGI do not light the material: the environment does, once. What the material reflects is not
+## taken for a lamp by lightmaps, SDFGI and VoxelGI, but [member emission] is. They know its
+## [member albedo], with the exception of [VoxelGI], which takes static objects with any
+## [ShaderMaterial] for white.
+## [br]- [Decal]s change what the engine's lights show, and add their emission; the environment's
+## light does not know of them.
+## [br]- A material shows the same environment in all viewports.
+## [br][br]
+## The shader is generated from the properties and shared by materials of the same kind; what is not
+## used is not in it. It is not stored with the material, and neither [member ShaderMaterial.shader]
+## nor shader parameters are to be set on it.
+
+## As [enum BaseMaterial3D.Transparency]. Compatibility has no alpha hash; there it blends.
+enum Transparency {
+	DISABLED,
+	ALPHA,
+	ALPHA_SCISSOR,
+	ALPHA_HASH,
+	ALPHA_DEPTH_PRE_PASS,
+}
+## As [enum BaseMaterial3D.BlendMode].
+enum BlendMode { MIX, ADD, SUBTRACT, MULTIPLY, PREMULTIPLIED_ALPHA }
+## As [enum BaseMaterial3D.CullMode].
+enum CullMode { BACK, FRONT, DISABLED }
+## As [enum BaseMaterial3D.TextureChannel].
+enum TextureChannel { RED, GREEN, BLUE, ALPHA, GRAYSCALE }
+## As [enum BaseMaterial3D.EmissionOperator].
+enum EmissionOperator { ADD, MULTIPLY }
 
 const LightRegistry := preload("light_registry.gd")
+const MaterialConversion := preload("material_conversion.gd")
+const MaterialParameters := preload("material_parameters.gd")
+const MaterialShader := preload("material_shader.gd")
+const TableChoice := preload("table_choice.gd")
+const Widths := preload("widths.gd")
 
 # Loaded here so that exported projects contain them.
 const _INCLUDES: Array[ShaderInclude] = [
+	preload("shaders/clear_coat.gdshaderinc"),
 	preload("shaders/colour.gdshaderinc"),
+	preload("shaders/diffuse.gdshaderinc"),
 	preload("shaders/environment.gdshaderinc"),
 	preload("shaders/frame.gdshaderinc"),
 	preload("shaders/lobe_table.gdshaderinc"),
-	preload("shaders/specular.gdshaderinc"),
 	preload("shaders/material.gdshaderinc"),
+	preload("shaders/material_inputs.gdshaderinc"),
+	preload("shaders/specular.gdshaderinc"),
+	preload("shaders/widths.gdshaderinc"),
 ]
 
 # Shaders in use, by their code.
 static var _variants: Dictionary[String, WeakRef] = {}
 static var _variants_mutex := Mutex.new()
 
-## The BRDF. Without one, or with an incomplete one, the material has a single wide lobe.
+@export_group("BRDF")
+## Where the lobes of any [member roughness] and [member anisotropy] come from. Without one, GGX
+## with eight lobes, which is the BRDF of Godot's own materials; [code]ward_8.res[/code], beside
+## it in [code]addons/lobelight/tables[/code], is Ward's.
+@export var table_set: LobeTableSet:
+	set(value):
+		_follow(table_set, value)
+		table_set = value
+		_queue_update()
+## The lobes of one BRDF, measured ones for instance. With a table, [member table_set] does not
+## count, nor do [member roughness], [member anisotropy] and their textures, except for the engine's
+## own lights; the table is drawn as it is, without compensation for lost energy.
 @export var table: LobeTable:
 	set(value):
-		if table == value:
-			return
-		if table != null:
-			table.changed.disconnect(_queue_update)
+		_follow(table, value)
 		table = value
-		if table != null:
-			table.changed.connect(_queue_update)
+		_queue_update()
+
+@export_group("Transparency")
+## Whether and how [member albedo]'s alpha makes the surface transparent.
+@export var transparency := Transparency.DISABLED:
+	set(value):
+		transparency = value
+		notify_property_list_changed()
+		_queue_update()
+## What is less opaque is not drawn.
+@export_range(0.0, 1.0, 0.001) var alpha_scissor_threshold := 0.5:
+	set(value):
+		alpha_scissor_threshold = value
+		_queue_update()
+## The size of the grain.
+@export_range(0.0, 2.0, 0.01) var alpha_hash_scale := 1.0:
+	set(value):
+		alpha_hash_scale = value
+		_queue_update()
+## How the surface is blended with what is behind it.
+@export var blend_mode := BlendMode.MIX:
+	set(value):
+		blend_mode = value
+		_queue_update()
+## The side that is not drawn. With DISABLED, back faces are lit as front faces of the other side.
+@export var cull_mode := CullMode.BACK:
+	set(value):
+		cull_mode = value
+		_queue_update()
+
+@export_group("Vertex Color", "vertex_color_")
+## Multiplies [member albedo] with the mesh's colours.
+@export var vertex_color_use_as_albedo := false:
+	set(value):
+		vertex_color_use_as_albedo = value
+		_queue_update()
+## Whether the mesh's colours are sRGB.
+@export var vertex_color_is_srgb := false:
+	set(value):
+		vertex_color_is_srgb = value
 		_queue_update()
 
 @export_group("Albedo")
-## The share of light reflected at normal incidence. Towards grazing angles it goes to 1 by
-## Schlick's approximation.
-@export_color_no_alpha var albedo := Color.WHITE:
+## The colour. Metals reflect this share of the light at normal incidence, and at grazing angles all
+## of it, by Schlick's approximation; other materials scatter it. Alpha is the opacity, see
+## [member transparency].
+@export var albedo := Color.WHITE:
 	set(value):
 		albedo = value
-		_set_colour(&"lobelight_albedo", value)
+		MaterialParameters.set_albedo(self)
 		emit_changed()
 ## Multiplied with [member albedo].
 @export var albedo_texture: Texture2D:
 	set(value):
 		albedo_texture = value
+		_queue_update()
+
+@export_group("ORM")
+## Occlusion in red, and factors of [member roughness] and [member metallic] in green and blue. It
+## replaces the textures of the three.
+@export var orm_texture: Texture2D:
+	set(value):
+		orm_texture = value
+		_queue_update()
+
+@export_group("Metallic")
+## 1 for metals, 0 for everything else. Pure metals cost less, as they have no diffuse light.
+@export_range(0.0, 1.0, 0.01) var metallic := 1.0:
+	set(value):
+		metallic = clampf(value, 0.0, 1.0)
+		_queue_update()
+## How much light is reflected by what is no metal: 16 % of the square, so that 0.5 is the 4 % of
+## plastic and glass. The same as [member BaseMaterial3D.metallic_specular].
+@export_range(0.0, 1.0, 0.01) var specular := 0.5:
+	set(value):
+		specular = clampf(value, 0.0, 1.0)
+		_queue_update()
+## A factor of [member metallic].
+@export var metallic_texture: Texture2D:
+	set(value):
+		metallic_texture = value
+		_queue_update()
+## The channel of [member metallic_texture].
+@export var metallic_texture_channel := TextureChannel.RED:
+	set(value):
+		metallic_texture_channel = value
+		_queue_update()
+
+@export_group("Roughness")
+## From 0, nearly a mirror, to 1. [method widths_of] tells what it does.
+@export_range(0.0, 1.0, 0.001) var roughness := 0.4:
+	set(value):
+		roughness = clampf(value, 0.0, 1.0)
+		_queue_update()
+## A factor of [member roughness]. With it, tables are looked up for each pixel: as many fetches as
+## without where [member anisotropy] is 0, otherwise twice as many.
+@export var roughness_texture: Texture2D:
+	set(value):
+		roughness_texture = value
+		_queue_update()
+## The channel of [member roughness_texture].
+@export var roughness_texture_channel := TextureChannel.RED:
+	set(value):
+		roughness_texture_channel = value
+		_queue_update()
+
+@export_group("Anisotropy")
+## How much wider highlights are along the tangent than across: from −1 to 1 the same as
+## [member BaseMaterial3D.anisotropy], widths being 10:1 at 1 and 1:1.9 at −1, and beyond that up to
+## 100:1 at 1.1. Meshes need tangents for it.
+@export_range(-1.0, 1.1, 0.001) var anisotropy := 0.0:
+	set(value):
+		anisotropy = clampf(value, -1.0, Widths.MAX_ANISOTROPY)
+		_queue_update()
+## Where the tangent of the lobes points, as in [member BaseMaterial3D.anisotropy_flowmap]: red
+## and green are the direction, alpha a factor of [member anisotropy]. It has no say where the
+## anisotropy is negative. Without an alpha channel it does not cost more fetches.
+@export var anisotropy_flowmap: Texture2D:
+	set(value):
+		anisotropy_flowmap = value
+		_queue_update()
+## An angle from the mesh's tangent, towards its bitangent, to the direction in which the first
+## width is measured; added to that of [member anisotropy_flowmap].
+@export_range(-180.0, 180.0, 0.1, "radians_as_degrees") var anisotropy_rotation := 0.0:
+	set(value):
+		anisotropy_rotation = value
 		_queue_update()
 
 @export_group("Normal Map")
@@ -66,12 +227,47 @@ static var _variants_mutex := Mutex.new()
 		normal_scale = value
 		_queue_update()
 
-@export_group("Anisotropy")
-## The angle from the mesh's tangent, towards its bitangent, to the direction in which the table's
-## first width is measured. Isotropic tables ignore it.
-@export_range(-180.0, 180.0, 0.1, "radians_as_degrees") var anisotropy_rotation := 0.0:
+@export_group("Clearcoat", "clearcoat_")
+## A clear lacquer over the material, up to 1. It has lobes of its own, and costs as many fetches
+## again.
+@export_range(0.0, 1.0, 0.01) var clearcoat := 0.0:
 	set(value):
-		anisotropy_rotation = value
+		clearcoat = clampf(value, 0.0, 1.0)
+		_queue_update()
+## The lacquer's roughness, as [member BaseMaterial3D.clearcoat_roughness]: its width is between
+## 0.001 and 0.1.
+@export_range(0.0, 1.0, 0.01) var clearcoat_roughness := 0.5:
+	set(value):
+		clearcoat_roughness = clampf(value, 0.0, 1.0)
+		_queue_update()
+## Factors of [member clearcoat] in red and of [member clearcoat_roughness] in green, the latter for
+## the engine's own lights only.
+@export var clearcoat_texture: Texture2D:
+	set(value):
+		clearcoat_texture = value
+		_queue_update()
+
+@export_group("Ambient Occlusion", "ao_")
+## The share of the surroundings that the surface sees. Reflections are occluded by it as well
+## (Lagarde and de Rousiers 2014).
+@export var ao_texture: Texture2D:
+	set(value):
+		ao_texture = value
+		_queue_update()
+## The channel of [member ao_texture].
+@export var ao_texture_channel := TextureChannel.RED:
+	set(value):
+		ao_texture_channel = value
+		_queue_update()
+## Whether [member ao_texture] lies on the mesh's second texture coordinates.
+@export var ao_on_uv2 := false:
+	set(value):
+		ao_on_uv2 = value
+		_queue_update()
+## How much the occlusion darkens the engine's own lights.
+@export_range(0.0, 1.0, 0.01) var ao_light_affect := 0.0:
+	set(value):
+		ao_light_affect = value
 		_queue_update()
 
 @export_group("Emission")
@@ -80,25 +276,78 @@ static var _variants_mutex := Mutex.new()
 	set(value):
 		emission = value
 		_queue_update()
-## Multiplied with [member emission].
+## A factor for [member emission] and its texture.
 @export_range(0.0, 16.0, 0.01, "or_greater") var emission_energy := 1.0:
 	set(value):
 		emission_energy = value
+		_queue_update()
+## Whether [member emission_texture] is added to or multiplied with [member emission].
+@export var emission_operator := EmissionOperator.ADD:
+	set(value):
+		emission_operator = value
+		_queue_update()
+## More light that the surface sends out.
+@export var emission_texture: Texture2D:
+	set(value):
+		emission_texture = value
+		_queue_update()
+
+@export_group("UV1", "uv1_")
+## A factor for the texture coordinates.
+@export var uv1_scale := Vector2.ONE:
+	set(value):
+		uv1_scale = value
+		_queue_update()
+## Added to the texture coordinates after their scale.
+@export var uv1_offset := Vector2.ZERO:
+	set(value):
+		uv1_offset = value
+		_queue_update()
+
+@export_group("Sampling", "texture_")
+## How textures are filtered.
+@export var texture_filter := BaseMaterial3D.TEXTURE_FILTER_LINEAR_WITH_MIPMAPS_ANISOTROPIC:
+	set(value):
+		texture_filter = value
+		_queue_update()
+## Whether textures repeat.
+@export var texture_repeat := true:
+	set(value):
+		texture_repeat = value
 		_queue_update()
 
 # Kept, because the object is no longer whole when it is told of its end.
 var _rid := get_rid()
 var _queued := false
 var _shader: Shader
-# What the material shows while `table` is missing or incomplete.
-var _stand_in: LobeTable
-# The textures of the rendering server's parameters, kept alive.
-var _table_texture: Texture2D
+# What the lobes come from, and the rendering server's textures, kept alive.
+var _choice := TableChoice.new()
+
+
+## The widths (alpha_x, alpha_y) of the BRDF along and across the brushing: [codeblock lang=text]
+## alpha_x = r² / aspect    alpha_y = r² · aspect    aspect = √(1 − 0.9 a) [/codeblock] with the
+## roughness r and the anisotropy a. These are the engine's own, so that a material looks the same
+## in its lights. Godot's anisotropy ends at a = 1, 10:1; here it goes on to 1.1, 100:1. With a <
+## 0, alpha_y is the larger one.
+static func widths_of(roughness_of_surface: float, anisotropy_of_surface: float) -> Vector2:
+	return Widths.from_roughness(roughness_of_surface, anisotropy_of_surface)
+
+
+## A material with the look of one of Godot's, a [StandardMaterial3D] or an [ORMMaterial3D], and the
+## same textures. [method get_losses_from] names what it does not take over.
+static func from_standard(source: BaseMaterial3D) -> LobeMaterial3D:
+	return MaterialConversion.from_standard(source)
+
+
+## The properties of a material of Godot's that [method from_standard] cannot take over and that are
+## not at their defaults.
+static func get_losses_from(source: BaseMaterial3D) -> PackedStringArray:
+	return MaterialConversion.get_losses(source)
 
 
 func _init() -> void:
 	LightRegistry.add_material(_rid)
-	_set_colour(&"lobelight_albedo", albedo)
+	MaterialParameters.set_albedo(self)
 	_queue_update()
 
 
@@ -108,31 +357,39 @@ func _notification(what: int) -> void:
 
 
 func _validate_property(property: Dictionary) -> void:
-	if property.name == "shader":
-		property.usage = PROPERTY_USAGE_NONE
-	elif property.name == "render_priority" or property.name == "next_pass":
-		property.usage = PROPERTY_USAGE_DEFAULT
+	match property.name:
+		"shader":
+			property.usage = PROPERTY_USAGE_NONE
+		"render_priority", "next_pass":
+			property.usage = PROPERTY_USAGE_DEFAULT
+		"alpha_scissor_threshold":
+			if transparency != Transparency.ALPHA_SCISSOR:
+				property.usage = PROPERTY_USAGE_NO_EDITOR
+		"alpha_hash_scale":
+			if transparency != Transparency.ALPHA_HASH:
+				property.usage = PROPERTY_USAGE_NO_EDITOR
 
 
 ## The generated shader's code: [code]#define[/code]s that choose the variant, and an
 ## [code]#include[/code].
 func get_shader_code() -> String:
-	var used := _get_table()
-	var code := "shader_type spatial;\nrender_mode ambient_light_disabled;\n"
-	code += "#define LOBELIGHT_LOBES %d\n" % used.lobe_count
-	if used.is_isotropic():
-		code += "#define LOBELIGHT_ISOTROPIC\n"
-	elif anisotropy_rotation != 0.0:
-		code += "#define LOBELIGHT_ANISOTROPY_ROTATION\n"
-	if used.has_second_texels():
-		code += "#define LOBELIGHT_SECOND_TEXELS\n"
-	if albedo_texture != null:
-		code += "#define LOBELIGHT_ALBEDO_TEXTURE\n"
-	if normal_texture != null:
-		code += "#define LOBELIGHT_NORMAL_TEXTURE\n"
-	if _emits():
-		code += "#define LOBELIGHT_EMISSION\n"
-	return code + '#include "%s"\n' % _get_fragment_path()
+	_choice.choose(self)
+	return MaterialShader.get_code(self, _choice) + '#include "%s"\n' % _get_fragment_path()
+
+
+## How often a pixel looks something up, counted from the shader:
+## [code]{"environment": int, "table": int, "samplers": int}[/code], the last being the samplers
+## besides those of the material's own textures.
+func get_fetches() -> Dictionary[String, int]:
+	_choice.choose(self)
+	return MaterialShader.count_fetches(self, _choice)
+
+
+## A material of Godot's with the same look in the engine's lights: an [ORMMaterial3D] where its
+## texture says all about roughness and metal, otherwise a [StandardMaterial3D]. Anisotropy above 1
+## becomes 1, and a [member table] gives its widths only.
+func to_standard() -> BaseMaterial3D:
+	return MaterialConversion.to_standard(self)
 
 
 ## The path of the shader include that has the fragment function. Materials that draw something else
@@ -142,17 +399,11 @@ func _get_fragment_path() -> String:
 	return folder.path_join("shaders/material.gdshaderinc")
 
 
-func _get_table() -> LobeTable:
-	if table != null and table.get_problem().is_empty():
-		_stand_in = null
-		return table
-	if _stand_in == null:
-		_stand_in = LobeTable.make_single_lobe()
-	return _stand_in
-
-
-func _emits() -> bool:
-	return emission_energy != 0.0 and (emission.r != 0.0 or emission.g != 0.0 or emission.b != 0.0)
+func _follow(before: Resource, after: Resource) -> void:
+	if before != null:
+		before.changed.disconnect(_queue_update)
+	if after != null:
+		after.changed.connect(_queue_update)
 
 
 # Several changed properties, as a file's are, make one shader. It is there before the next frame.
@@ -165,50 +416,11 @@ func _queue_update() -> void:
 
 func _update() -> void:
 	_queued = false
-	var used := _get_table()
 	var code := get_shader_code()
 	if _shader == null or _shader.code != code:
 		_shader = _get_variant(code)
 		RenderingServer.material_set_shader(_rid, _shader.get_rid())
-
-	_table_texture = used.get_texture()
-	_set_parameter(&"lobelight_table", _table_texture.get_rid())
-	_set_parameter(&"lobelight_table_alpha", used.alpha)
-	_set_parameter(&"lobelight_table_lookup", used.get_lookup())
-	_set_engine_lights(used)
-
-	if albedo_texture != null:
-		_set_parameter(&"lobelight_albedo_texture", albedo_texture.get_rid())
-	if normal_texture != null:
-		_set_parameter(&"lobelight_normal_texture", normal_texture.get_rid())
-		_set_parameter(&"lobelight_normal_scale", normal_scale)
-	if _emits():
-		_set_colour(&"lobelight_emitted", emission, emission_energy)
-
-
-# Roughness and anisotropy for the engine's own lights. The engine's widths are
-# r² / aspect and r² · aspect, aspect = sqrt(1 - 0.9 anisotropy), the first along the flow
-# (Burley 2012, "Physically-Based Shading at Disney", B.1).
-func _set_engine_lights(used: LobeTable) -> void:
-	_set_parameter(&"lobelight_roughness", pow(used.alpha.x * used.alpha.y, 0.25))
-	if used.is_isotropic():
-		return
-	var ratio := minf(used.alpha.x, used.alpha.y) / maxf(used.alpha.x, used.alpha.y)
-	_set_parameter(&"lobelight_anisotropy", minf((1.0 - ratio * ratio) / 0.9, 1.0))
-	var turn := Vector2.from_angle(anisotropy_rotation)
-	_set_parameter(&"lobelight_anisotropy_rotation", turn)
-	var flow := turn if used.alpha.x >= used.alpha.y else turn.rotated(0.5 * PI)
-	_set_parameter(&"lobelight_anisotropy_flow", flow)
-
-
-func _set_colour(name: StringName, colour: Color, factor := 1.0) -> void:
-	var linear := colour.srgb_to_linear() * factor
-	_set_parameter(name, Vector3(linear.r, linear.g, linear.b))
-
-
-# Not ShaderMaterial's own parameters: those would be stored with the material, pyramid and all.
-func _set_parameter(name: StringName, value: Variant) -> void:
-	RenderingServer.material_set_param(_rid, name, value)
+	MaterialParameters.apply(self, _choice)
 
 
 static func _get_variant(code: String) -> Shader:

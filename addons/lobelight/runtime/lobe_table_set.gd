@@ -15,6 +15,11 @@ extends Resource
 ## The most [member widths].
 const MAX_WIDTHS := 64
 
+const WidthsTexture := preload("widths_texture.gd")
+
+# Shared tables' widths are rounded to this part of an octave, 0.27 %.
+const _SHARED_STEPS := 256.0
+
 ## The name of the BRDF that was fitted.
 @export var brdf := "":
 	set(value):
@@ -24,17 +29,17 @@ const MAX_WIDTHS := 64
 @export var widths := PackedFloat64Array():
 	set(value):
 		widths = value
-		emit_changed()
+		_invalidate()
 ## Lobes per view.
 @export var lobe_count := 0:
 	set(value):
 		lobe_count = value
-		emit_changed()
+		_invalidate()
 ## Views of an anisotropic table's grid: elevations, azimuths. Isotropic tables have one azimuth.
 @export var views := Vector2i.ZERO:
 	set(value):
 		views = value
-		emit_changed()
+		_invalidate()
 ## The seed of the fit.
 @warning_ignore("shadowed_global_identifier") @export var seed := 0:
 	set(value):
@@ -46,7 +51,15 @@ const MAX_WIDTHS := 64
 @export var image: Image:
 	set(value):
 		image = value
-		emit_changed()
+		_invalidate()
+
+# Tables in use, by their rounded widths, and textures, by whether they are isotropic.
+var _shared: Dictionary[Vector2i, WeakRef] = {}
+var _textures: Dictionary[bool, WeakRef] = {}
+var _mutex := Mutex.new()
+# Whether the properties make a set, once that has been found out.
+var _problem := ""
+var _is_checked := false
 
 
 ## A set from a result of [LobeBaker]; [code]null[/code], and an error, if it is none.
@@ -88,6 +101,13 @@ static func from_baked(result: Dictionary) -> LobeTableSet:
 
 ## What keeps the set from being used, in a sentence; empty if nothing does.
 func get_problem() -> String:
+	if not _is_checked:
+		_problem = _find_problem()
+		_is_checked = true
+	return _problem
+
+
+func _find_problem() -> String:
 	if lobe_count < 1 or lobe_count > LobeTable.MAX_LOBES:
 		return "A set has 1 to %d lobes, this one has %d." % [LobeTable.MAX_LOBES, lobe_count]
 	if views.x < 2 or views.y < 2:
@@ -146,6 +166,61 @@ func table_at(alpha: Vector2) -> LobeTable:
 	return table
 
 
+## As [method table_at], but one table for all who ask for the same widths while somebody holds it.
+## Widths are rounded to 0.27 %.
+func shared_table_at(alpha: Vector2) -> LobeTable:
+	var used := alpha.clampf(widths[0], widths[-1])
+	var steps := Vector2(log(used.x), log(used.y)) * (_SHARED_STEPS / log(2.0))
+	var key := Vector2i(steps.round())
+	_mutex.lock()
+	var table: LobeTable = _shared[key].get_ref() if _shared.has(key) else null
+	if table == null:
+		for other: Vector2i in _shared.keys():
+			if _shared[other].get_ref() == null:
+				_shared.erase(other)
+		var rounded := Vector2(key) * (log(2.0) / _SHARED_STEPS)
+		table = table_at(Vector2(exp(rounded.x), exp(rounded.y)))
+		_shared[key] = weakref(table)
+	_mutex.unlock()
+	return table
+
+
+## All tables as one texture; see [LobeMaterial3D]'s textures of roughness and anisotropy.
+func get_widths_texture(isotropic: bool) -> WidthsTexture:
+	_mutex.lock()
+	var texture: WidthsTexture
+	if _textures.has(isotropic):
+		texture = _textures[isotropic].get_ref()
+	if texture == null:
+		texture = WidthsTexture.make(self, isotropic)
+		_textures[isotropic] = weakref(texture)
+	_mutex.unlock()
+	return texture
+
+
+## The isotropic table of one of [member widths], counted from 0.
+func get_isotropic_image(width: int) -> Image:
+	return _get_table_image(_pair_count() + width)
+
+
+## The anisotropic table of two of [member widths], counted from 0, the first not the smaller.
+func get_pair_image(wide: int, narrow: int) -> Image:
+	return _get_table_image(_pair(wide, narrow))
+
+
+func _get_table_image(table: int) -> Image:
+	return image.get_region(Rect2i(0, _row(table), views.x, _row(table + 1) - _row(table)))
+
+
+func _invalidate() -> void:
+	_mutex.lock()
+	_is_checked = false
+	_shared.clear()
+	_textures.clear()
+	_mutex.unlock()
+	emit_changed()
+
+
 func _get_widths_problem() -> String:
 	if widths.size() < 2 or widths.size() > MAX_WIDTHS:
 		return "A set has 2 to %d widths, this one has %d." % [MAX_WIDTHS, widths.size()]
@@ -200,55 +275,59 @@ func _isotropic_shares(width: float) -> Dictionary[int, float]:
 	return {first: 1.0 - (level - low), first + 1: level - low}
 
 
+# Pairs of widths that are equally many levels apart are a row of tables. Shares are those of two
+# rows, and of two neighbours in each, at the same mean of the two levels: what is kept between
+# neighbours is how long a lobe is for its breadth. The shader does the same, see
+# shaders/widths.gdshaderinc.
 func _pair_shares(wide: float, narrow: float) -> Dictionary[int, float]:
-	var last := widths.size() - 2
-	var x := mini(floori(_level(wide)), last)
-	var y := mini(floori(_level(narrow)), last)
-	var u := _level(wide) - x
-	var v := _level(narrow) - y
-	if x == y:
-		# The corner beyond the diagonal is the other axis' table, whose lobes are not these.
-		return {_pair(x, x): 1.0 - u, _pair(x + 1, x): u - v, _pair(x + 1, x + 1): v}
-	return {
-		_pair(x, y): (1.0 - u) * (1.0 - v),
-		_pair(x + 1, y): u * (1.0 - v),
-		_pair(x, y + 1): (1.0 - u) * v,
-		_pair(x + 1, y + 1): u * v,
-	}
+	var last := widths.size() - 1
+	var x := _level(wide)
+	var y := _level(narrow)
+	var first := mini(floori(x - y), last - 1)
+	var way := x - y - first
+	var shares: Dictionary[int, float] = {}
+	for apart: int in [first, first + 1]:
+		var row_share := way if apart > first else 1.0 - way
+		var place := clampf(0.5 * (x + y - apart), 0.0, last - apart)
+		var low := maxi(mini(floori(place), last - apart - 1), 0)
+		shares[_pair(low + apart, low)] = row_share * (1.0 - (place - low))
+		if place > low:
+			shares[_pair(low + 1 + apart, low + 1)] = row_share * (place - low)
+	return shares
 
 
 # The image of a table: the sum of the tables with these shares. Exchanged axes swap the slopes and
 # count azimuths from the other end.
 func _blend(shares: Dictionary[int, float], grid: Vector2i, exchange: bool) -> Image:
 	var rows := lobe_count * grid.y
-	var sum := PackedFloat32Array()
-	sum.resize(4 * grid.x * rows)
+	var sum := PackedVector4Array()
 	for table: int in shares:
 		var share := shares[table]
 		if share <= 0.0:
 			continue
-		var part := image.get_region(Rect2i(0, _row(table), grid.x, rows))
+		var part := _get_table_image(table)
 		part.convert(Image.FORMAT_RGBAF)
-		var values := part.get_data().to_float32_array()
-		for i in values.size():
-			sum[i] += share * values[i]
+		var texels := part.get_data().to_vector4_array()
+		if sum.is_empty():
+			sum.resize(texels.size())
+		for i in texels.size():
+			sum[i] += share * texels[i]
 	if exchange:
 		sum = _exchange_axes(sum, grid)
 	var result := Image.create_from_data(
-		grid.x, rows, false, Image.FORMAT_RGBAF, sum.to_byte_array()
+		grid.x, lobe_count * grid.y, false, Image.FORMAT_RGBAF, sum.to_byte_array()
 	)
 	result.convert(Image.FORMAT_RGBAH)
 	return result
 
 
-func _exchange_axes(texels: PackedFloat32Array, grid: Vector2i) -> PackedFloat32Array:
-	var exchanged := PackedFloat32Array()
+func _exchange_axes(texels: PackedVector4Array, grid: Vector2i) -> PackedVector4Array:
+	var exchanged := PackedVector4Array()
 	for lobe in lobe_count:
 		for p in grid.y:
-			var first := 4 * grid.x * (lobe * grid.y + grid.y - 1 - p)
-			exchanged.append_array(texels.slice(first, first + 4 * grid.x))
-	for i in range(0, exchanged.size(), 4):
-		var slope_x := exchanged[i]
-		exchanged[i] = exchanged[i + 1]
-		exchanged[i + 1] = slope_x
+			var first := grid.x * (lobe * grid.y + grid.y - 1 - p)
+			exchanged.append_array(texels.slice(first, first + grid.x))
+	for i in exchanged.size():
+		var texel := exchanged[i]
+		exchanged[i] = Vector4(texel.y, texel.x, texel.z, texel.w)
 	return exchanged

@@ -1,0 +1,76 @@
+@tool
+extends EditorContextMenuPlugin
+## "Convert Materials to LobeMaterial3D" in the menu of the scene tree: what the selected nodes
+## and those below them draw with Godot's own materials, they draw with LobeMaterial3Ds. It can be
+## undone. Materials of meshes are overridden in the nodes, because imported meshes cannot be
+## changed.
+
+const ConversionPlugin := preload("material_conversion_plugin.gd")
+
+var _undo_redo: EditorUndoRedoManager
+
+
+func _init(undo_redo: EditorUndoRedoManager = null) -> void:
+	_undo_redo = undo_redo
+
+
+func _popup_menu(_paths: PackedStringArray) -> void:
+	add_context_menu_item("Convert Materials to LobeMaterial3D", _convert_nodes)
+
+
+## The changes to make, in order: [code][node, property, new material][/code]. What several nodes
+## share they go on sharing.
+static func find_changes(nodes: Array[Node]) -> Array[Array]:
+	var changes: Array[Array] = []
+	var made: Dictionary[BaseMaterial3D, LobeMaterial3D] = {}
+	var seen: Dictionary[Node, bool] = {}
+	for root in nodes:
+		var all := root.find_children("*", "GeometryInstance3D", true, false)
+		all.push_front(root)
+		for node in all:
+			if seen.has(node):
+				continue
+			seen[node] = true
+			for entry in _find_materials(node):
+				var source: BaseMaterial3D = entry[1]
+				if not made.has(source):
+					made[source] = ConversionPlugin.convert_to_lobes(source)
+				changes.append([node, entry[0], made[source]])
+	return changes
+
+
+# Properties of a node that hold or would override one of Godot's materials, and the material.
+static func _find_materials(node: Node) -> Array[Array]:
+	var found: Array[Array] = []
+	var geometry := node as GeometryInstance3D
+	if geometry == null:
+		return found
+	if geometry.material_override is BaseMaterial3D:
+		found.append(["material_override", geometry.material_override])
+	var instance := node as MeshInstance3D
+	if instance != null and instance.mesh != null:
+		for surface in instance.mesh.get_surface_count():
+			var material := instance.get_surface_override_material(surface)
+			if material == null:
+				material = instance.mesh.surface_get_material(surface)
+			if material is BaseMaterial3D:
+				found.append(["surface_material_override/%d" % surface, material])
+	elif "material" in node and node.get("material") is BaseMaterial3D:
+		# CSG shapes.
+		found.append(["material", node.get("material")])
+	return found
+
+
+func _convert_nodes(nodes: Array) -> void:
+	var roots: Array[Node] = []
+	roots.assign(nodes)
+	var changes := find_changes(roots)
+	if changes.is_empty():
+		return
+	_undo_redo.create_action("Convert Materials to LobeMaterial3D")
+	for change in changes:
+		var node: Node = change[0]
+		var property: String = change[1]
+		_undo_redo.add_do_property(node, property, change[2])
+		_undo_redo.add_undo_property(node, property, node.get(property))
+	_undo_redo.commit_action()

@@ -1,0 +1,97 @@
+@tool
+extends RefCounted
+## Which lobes a [LobeMaterial3D] draws: a table, or all tables of a set.
+
+const Widths := preload("widths.gd")
+const WidthsTexture := preload("widths_texture.gd")
+const DEFAULT_SET := "res://addons/lobelight/tables/ggx_8.res"
+
+# Kept from one look to the next: loading a set takes a while.
+static var _default_set: LobeTableSet
+static var _mutex := Mutex.new()
+
+## The lobes, where one table serves the whole surface.
+var table: LobeTable
+## The lobes of all widths, where these vary from pixel to pixel; otherwise [code]null[/code].
+var widths_texture: WidthsTexture
+## The clear coat's lobes, or [code]null[/code].
+var coat: LobeTable
+var is_isotropic := true
+var lobe_count := 1
+## Whether the lobes come from a set, which goes with roughness and anisotropy.
+var is_from_set := false
+## Roughness, anisotropy and the angle of the first axis, as the shader is to take them.
+var roughness := 0.0
+var anisotropy := 0.0
+var rotation := 0.0
+
+var _stand_in: LobeTable
+
+
+## Looks anew at what the material says.
+func choose(material: LobeMaterial3D) -> void:
+	roughness = material.roughness
+	anisotropy = material.anisotropy
+	rotation = material.anisotropy_rotation
+	table = null
+	widths_texture = null
+	var tables := _get_set(material)
+	is_from_set = material.table == null and tables != null
+	if is_from_set:
+		_choose_from(tables, material)
+	else:
+		_choose_table(material)
+	coat = null
+	if material.clearcoat > 0.0 and tables != null:
+		var width := Widths.from_coat_roughness(material.clearcoat_roughness)
+		coat = tables.shared_table_at(Vector2(width, width))
+
+
+func _choose_from(tables: LobeTableSet, material: LobeMaterial3D) -> void:
+	_stand_in = null
+	# Neither the engine nor flow maps turn negative anisotropy.
+	if anisotropy < 0.0 and rotation != 0.0 and material.anisotropy_flowmap == null:
+		anisotropy = Widths.exchanged(anisotropy)
+		rotation += 0.5 * PI
+	lobe_count = tables.lobe_count
+	is_isotropic = anisotropy == 0.0
+	if _varies(material) and WidthsTexture.get_problem(tables).is_empty():
+		widths_texture = tables.get_widths_texture(is_isotropic)
+	else:
+		table = tables.shared_table_at(Widths.from_roughness(roughness, anisotropy))
+		is_isotropic = table.is_isotropic()
+
+
+# A material's own table, or one that stands in for it.
+func _choose_table(material: LobeMaterial3D) -> void:
+	if material.table != null and material.table.get_problem().is_empty():
+		_stand_in = null
+		table = material.table
+	else:
+		if _stand_in == null:
+			_stand_in = LobeTable.make_single_lobe()
+		table = _stand_in
+	lobe_count = table.lobe_count
+	is_isotropic = table.is_isotropic()
+	var godots := Widths.to_roughness(table.alpha)
+	roughness = godots.x
+	anisotropy = 0.0 if is_isotropic else godots.y
+
+
+static func _varies(material: LobeMaterial3D) -> bool:
+	if material.orm_texture != null or material.roughness_texture != null:
+		return true
+	var flowmap := material.anisotropy_flowmap
+	return material.anisotropy != 0.0 and flowmap != null and flowmap.has_alpha()
+
+
+static func _get_set(material: LobeMaterial3D) -> LobeTableSet:
+	if material.table_set != null:
+		return material.table_set if material.table_set.get_problem().is_empty() else null
+	if material.table != null and material.clearcoat <= 0.0:
+		return null
+	_mutex.lock()
+	if _default_set == null and ResourceLoader.exists(DEFAULT_SET):
+		_default_set = load(DEFAULT_SET)
+	_mutex.unlock()
+	return _default_set

@@ -1,0 +1,192 @@
+extends GdUnitTestSuite
+## Conversion between Godot's materials and LobeMaterial3D.
+
+const ConversionPlugin := preload("res://addons/lobelight/editor/material_conversion_plugin.gd")
+const SceneMenu := preload("res://addons/lobelight/editor/scene_conversion_menu.gd")
+
+
+func _texture() -> Texture2D:
+	return ImageTexture.create_from_image(Image.create_empty(2, 2, false, Image.FORMAT_RGB8))
+
+
+func _full_material() -> StandardMaterial3D:
+	var source := StandardMaterial3D.new()
+	source.resource_name = "brushed"
+	source.albedo_color = Color(0.8, 0.5, 0.3, 0.6)
+	source.albedo_texture = _texture()
+	source.metallic = 0.7
+	source.metallic_specular = 0.3
+	source.metallic_texture = _texture()
+	source.metallic_texture_channel = BaseMaterial3D.TEXTURE_CHANNEL_BLUE
+	source.roughness = 0.35
+	source.roughness_texture = _texture()
+	source.roughness_texture_channel = BaseMaterial3D.TEXTURE_CHANNEL_GREEN
+	source.emission_enabled = true
+	source.emission = Color(0.1, 0.2, 0.3)
+	source.emission_energy_multiplier = 3.0
+	source.emission_operator = BaseMaterial3D.EMISSION_OP_MULTIPLY
+	source.emission_texture = _texture()
+	source.normal_enabled = true
+	source.normal_texture = _texture()
+	source.normal_scale = 0.6
+	source.clearcoat_enabled = true
+	source.clearcoat = 0.8
+	source.clearcoat_roughness = 0.2
+	source.clearcoat_texture = _texture()
+	source.anisotropy_enabled = true
+	source.anisotropy = -0.6
+	source.anisotropy_flowmap = _texture()
+	source.ao_enabled = true
+	source.ao_texture = _texture()
+	source.ao_light_affect = 0.4
+	source.ao_on_uv2 = true
+	source.ao_texture_channel = BaseMaterial3D.TEXTURE_CHANNEL_ALPHA
+	source.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR
+	source.alpha_scissor_threshold = 0.3
+	source.blend_mode = BaseMaterial3D.BLEND_MODE_ADD
+	source.cull_mode = BaseMaterial3D.CULL_DISABLED
+	source.vertex_color_use_as_albedo = true
+	source.uv1_scale = Vector3(2.0, 3.0, 1.0)
+	source.uv1_offset = Vector3(0.5, 0.25, 0.0)
+	source.texture_filter = BaseMaterial3D.TEXTURE_FILTER_NEAREST
+	source.texture_repeat = false
+	source.next_pass = StandardMaterial3D.new()
+	source.render_priority = 3
+	return source
+
+
+func test_there_and_back() -> void:
+	var source := _full_material()
+	var made := LobeMaterial3D.from_standard(source)
+	assert_float(made.roughness).is_equal_approx(0.35, 1e-6)
+	assert_float(made.anisotropy).is_equal_approx(-0.6, 1e-6)
+	assert_object(made.anisotropy_flowmap).is_same(source.anisotropy_flowmap)
+	assert_array(LobeMaterial3D.get_losses_from(source)).is_empty()
+	var back := made.to_standard()
+	assert_bool(back is StandardMaterial3D).is_true()
+	_assert_same(source, back)
+
+
+func test_defaults() -> void:
+	var source := StandardMaterial3D.new()
+	var made := LobeMaterial3D.from_standard(source)
+	assert_float(made.metallic).is_equal(0.0)
+	assert_float(made.roughness).is_equal(1.0)
+	assert_float(made.clearcoat).is_equal(0.0)
+	assert_object(made.normal_texture).is_null()
+	_assert_same(source, made.to_standard(), ["clearcoat", "clearcoat_roughness"])
+
+
+func test_features_that_are_off_stay_off() -> void:
+	var source := _full_material()
+	for feature: StringName in [
+		&"anisotropy_enabled",
+		&"ao_enabled",
+		&"clearcoat_enabled",
+		&"emission_enabled",
+		&"normal_enabled"
+	]:
+		source.set(feature, false)
+	var made := LobeMaterial3D.from_standard(source)
+	assert_float(made.anisotropy).is_equal(0.0)
+	assert_float(made.clearcoat).is_equal(0.0)
+	assert_object(made.ao_texture).is_null()
+	assert_object(made.normal_texture).is_null()
+	assert_object(made.emission_texture).is_null()
+	assert_that(made.emission).is_equal(Color.BLACK)
+
+
+func test_orm() -> void:
+	# Godot takes roughness and metallic of these from the texture alone.
+	var source := ORMMaterial3D.new()
+	source.orm_texture = _texture()
+	source.ao_enabled = true
+	source.roughness = 0.3
+	source.metallic = 0.2
+	var made := LobeMaterial3D.from_standard(source)
+	assert_object(made.orm_texture).is_same(source.orm_texture)
+	assert_float(made.roughness).is_equal(1.0)
+	assert_float(made.metallic).is_equal(1.0)
+	var back := made.to_standard()
+	assert_bool(back is ORMMaterial3D).is_true()
+	assert_object(back.orm_texture).is_same(source.orm_texture)
+	assert_bool(back.ao_enabled).is_true()
+	# Without occlusion, the texture's red is not to be read.
+	source.ao_enabled = false
+	made = LobeMaterial3D.from_standard(source)
+	assert_object(made.orm_texture).is_null()
+	assert_object(made.ao_texture).is_null()
+	assert_object(made.roughness_texture).is_same(source.orm_texture)
+	assert_int(made.roughness_texture_channel).is_equal(LobeMaterial3D.TextureChannel.GREEN)
+	assert_int(made.metallic_texture_channel).is_equal(LobeMaterial3D.TextureChannel.BLUE)
+	# With factors, an ORMMaterial3D would forget them.
+	made.orm_texture = source.orm_texture
+	made.roughness = 0.5
+	var parts := made.to_standard()
+	assert_bool(parts is StandardMaterial3D).is_true()
+	assert_float(parts.roughness).is_equal(0.5)
+	assert_object(parts.roughness_texture).is_same(source.orm_texture)
+	assert_int(parts.roughness_texture_channel).is_equal(BaseMaterial3D.TEXTURE_CHANNEL_GREEN)
+	assert_object(parts.ao_texture).is_same(source.orm_texture)
+
+
+func test_losses_are_named() -> void:
+	var source := StandardMaterial3D.new()
+	assert_array(LobeMaterial3D.get_losses_from(source)).is_empty()
+	source.rim_enabled = true
+	source.uv1_triplanar = true
+	source.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
+	assert_array(LobeMaterial3D.get_losses_from(source)).contains_exactly_in_any_order(
+		["rim_enabled", "uv1_triplanar", "shading_mode"]
+	)
+	# The names are those of properties.
+	for name: StringName in LobeMaterial3D.MaterialConversion._LOST:
+		assert_bool(name in source).append_failure_message(name).is_true()
+		assert_that(StandardMaterial3D.new().get(name)).is_equal(
+			LobeMaterial3D.MaterialConversion._LOST[name]
+		)
+
+
+func test_an_angle_becomes_a_flow_map() -> void:
+	var made := LobeMaterial3D.new()
+	made.anisotropy = 0.5
+	made.anisotropy_rotation = 0.7
+	var texel := made.to_standard().anisotropy_flowmap.get_image().get_pixel(1, 1)
+	var flow := Vector2(texel.r, texel.g) * 2.0 - Vector2.ONE
+	assert_float(flow.angle()).is_equal_approx(0.7, 2e-3)
+	assert_float(texel.a).is_equal(1.0)
+
+
+func test_a_table_gives_its_widths() -> void:
+	var made := LobeMaterial3D.new()
+	made.table = LobeTable.make_single_lobe(0.25)
+	var back := made.to_standard()
+	assert_float(back.roughness).is_equal_approx(0.5, 1e-5)
+	assert_bool(back.anisotropy_enabled).is_false()
+
+
+func test_scene_menu_finds_what_nodes_draw() -> void:
+	var shared := StandardMaterial3D.new()
+	var root: Node3D = auto_free(Node3D.new())
+	var meshes: Array[MeshInstance3D] = []
+	for i in 3:
+		meshes.append(MeshInstance3D.new())
+		meshes[i].mesh = BoxMesh.new()
+		root.add_child(meshes[i])
+	(meshes[0].mesh as BoxMesh).material = shared
+	meshes[1].material_override = shared
+	(meshes[2].mesh as BoxMesh).material = LobeMaterial3D.new()
+	var nodes: Array[Node] = [root, meshes[0]]
+	var changes := SceneMenu.find_changes(nodes)
+	assert_int(changes.size()).is_equal(2)
+	assert_object(changes[0][0]).is_same(meshes[0])
+	assert_str(changes[0][1]).is_equal("surface_material_override/0")
+	assert_str(changes[1][1]).is_equal("material_override")
+	assert_object(changes[0][2]).is_same(changes[1][2])
+
+
+func _assert_same(a: Material, b: Material, except: PackedStringArray = []) -> void:
+	for property in a.get_property_list():
+		var name: String = property["name"]
+		if property["usage"] & PROPERTY_USAGE_STORAGE and name not in except:
+			assert_that(b.get(name)).append_failure_message(name).is_equal(a.get(name))
