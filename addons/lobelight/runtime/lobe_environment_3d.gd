@@ -39,7 +39,8 @@ enum Source {
 	## [member panorama], turned by the node's rotation. Its position and scale do not matter.
 	PANORAMA,
 	## The scene around the node's position, and its sky. The node's rotation does not matter.
-	## [LobeMaterial3D]s in the scene show the light of the update before.
+	## [LobeMaterial3D]s in the scene show the light of the update before. The first capture is
+	## made twice, because Mobile draws a mesh without omni and spot lights the first time.
 	CAPTURE,
 }
 
@@ -371,6 +372,9 @@ func _on_frame_post_draw() -> void:
 	_frames = 1 if _slice == _WHOLE else _slice
 	_cpu_time = _chain.transfer_time
 	_light_kind = _source.get_kind()
+	# In Mobile, omni and spot lights shine on a mesh from the second frame on that draws it.
+	if _light == null and _light_kind == EnvironmentSource.Kind.SCENE_VIEWS:
+		_stale = true
 	_set_light(_chain.get_light())
 
 

@@ -44,6 +44,7 @@ var _with_scene: bool
 var _seen: Array = []
 var _count := 0
 var _differs := false
+var _texture_changed := false
 # The sky material whose properties these are, and its shader.
 var _material: Material
 var _shader: Shader
@@ -101,7 +102,8 @@ func find_sky_rotation() -> Basis:
 ## Brings [member copy] up to date; whether anything that shows has changed since the last call.
 func update() -> bool:
 	_count = 0
-	_differs = false
+	_differs = _texture_changed
+	_texture_changed = false
 	var environment := find_environment()
 	_look_at(environment)
 	if environment == null:
@@ -140,7 +142,11 @@ func _look_at_sky(sky: Sky) -> void:
 		_shader = shader
 		_names = _stored_names(material)
 	for name in _names:
-		_look_at(material.get(name))
+		var value: Variant = material.get(name)
+		if _look_at(value) and value is Texture2D:
+			var texture: Texture2D = value
+			if not texture.changed.is_connected(_on_texture_changed):
+				texture.changed.connect(_on_texture_changed)
 
 
 # Whether a value is another than at the last look.
@@ -154,6 +160,10 @@ func _look_at(value: Variant) -> bool:
 	_count += 1
 	_differs = _differs or differs
 	return differs
+
+
+func _on_texture_changed() -> void:
+	_texture_changed = true
 
 
 static func _stored_names(object: Object) -> Array[StringName]:

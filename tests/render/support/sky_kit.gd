@@ -71,8 +71,8 @@ static func make_mirror() -> MeshInstance3D:
 	return Kit.make_sphere(material, 96)
 
 
-## What a camera looking along each axis sees, a right angle wide. To be awaited.
-static func look_around(view: LinearViewport) -> Array[Image]:
+## What a camera at a point sees along each axis, a right angle wide. To be awaited.
+static func look_around(view: LinearViewport, from := Vector3.ZERO) -> Array[Image]:
 	var camera := view.camera
 	var before := camera.transform
 	var projection := camera.projection
@@ -81,7 +81,7 @@ static func look_around(view: LinearViewport) -> Array[Image]:
 	camera.set_perspective(90.0, 0.1, 10.0)
 	var pictures: Array[Image] = []
 	for axis in AXES:
-		camera.look_at_from_position(Vector3.ZERO, axis, _up(axis))
+		camera.look_at_from_position(from, from + axis, _up(axis))
 		pictures.append(await view.capture())
 	view.transparent_bg = transparent
 	camera.transform = before
@@ -113,6 +113,41 @@ static func reflected(camera: Camera3D, pixel: Vector2) -> Vector3:
 	if hit.is_empty() or -hit[1].dot(ray) < 0.3:
 		return Vector3.ZERO
 	return ray.bounce(hit[1])
+
+
+## The directions that the unit sphere reflects into the pixels of a picture, row by row.
+static func all_reflected(camera: Camera3D, side: int) -> PackedVector3Array:
+	var directions := PackedVector3Array()
+	for y in side:
+		for x in side:
+			directions.append(reflected(camera, Vector2(x + 0.5, y + 0.5)))
+	return directions
+
+
+## How a mirror's picture compares with what there is to see: (share of pixels that are less than
+## 6 % off, mean error over mean light).
+static func compare(
+	mirrored: Image, directions: PackedVector3Array, around: Array[Image]
+) -> Vector2:
+	var sum := 0.0
+	var off := 0.0
+	var count := 0
+	var matching := 0
+	for i in directions.size():
+		if directions[i] == Vector3.ZERO:
+			continue
+		@warning_ignore("integer_division")
+		var got := mirrored.get_pixel(i % mirrored.get_width(), i / mirrored.get_width())
+		var expected := seen(around, directions[i])
+		var difference := 0.0
+		for channel in 3:
+			sum += expected[channel]
+			off += absf(got[channel] - expected[channel])
+			difference = maxf(difference, absf(got[channel] - expected[channel]))
+		count += 1
+		# Compatibility's frame buffer shows nothing that is darker than 0.00084.
+		matching += 1 if difference < maxf(0.06 * expected.v, 0.001) else 0
+	return Vector2(float(matching) / count, off / sum)
 
 
 static func _up(axis: Vector3) -> Vector3:
