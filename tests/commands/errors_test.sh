@@ -143,6 +143,9 @@ refuses "stability, JSON in a missing folder" "missing/cases.json" stability --q
 refuses "accuracy, a map that is not there" "no such map" accuracy --quick --maps absent.exr
 refuses "accuracy, a size out of range" "--size" accuracy --size 4
 refuses "accuracy, an unknown option" "--frames" accuracy --frames 3
+refuses "mobile-cost, an unknown GPU" "no GPU 'adreno1'" mobile-cost --gpus adreno1
+refuses "mobile-cost, an unknown variant" "no variant 'gmm9'" mobile-cost --variants gmm9
+refuses "mobile-cost, JSON in a missing folder" "missing/rows.json" mobile-cost --json missing/rows.json
 refuses "an unknown command" "no-such-command" no-such-command
 refuses "a command that comes later" "not available yet" report
 

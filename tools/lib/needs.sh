@@ -134,3 +134,22 @@ need_import() {
     locked "$ROOT/build/lock" bash "$ROOT/tools/setup/import.sh"
   fi
 }
+
+# need_mobile_compilers adreno|mali: sets MOBILE_ENGINE, the engine of Debian's package with its drivers, and
+# MOBILE_COMPILERS or MOBILE_COMPILERS_MALI, where Mesa's no-op kernels are.
+need_mobile_compilers() {
+  local kind=$1 folder
+  MOBILE_ENGINE=$CACHE/engine
+  if [[ ! -x $MOBILE_ENGINE/godot ]] || ! stamp_is "$MOBILE_ENGINE/key" "$(engine_key)"; then
+    need_packages
+    locked "$CACHE/lock/engine" bash "$ROOT/tools/setup/engine.sh"
+  fi
+  # Of the engine's own Mesa or of another one: the kernels do nothing, so that either will do.
+  folder=$CACHE/mobile-compilers/$kind-$(content_hash "$ROOT/tools/setup/mobile_compilers.sh" "$MOBILE_ENGINE/key")
+  if [[ ! -f $folder/complete ]]; then
+    need_packages
+    locked "$CACHE/lock/mobile-compilers" bash "$ROOT/tools/setup/mobile_compilers.sh" "$kind" "$folder"
+  fi
+  if [[ $kind == mali ]]; then MOBILE_COMPILERS_MALI=$folder/root; else MOBILE_COMPILERS=$folder/root; fi
+  export MOBILE_ENGINE MOBILE_COMPILERS MOBILE_COMPILERS_MALI
+}

@@ -89,6 +89,12 @@ run_accuracy() {
   judge accuracy
 }
 
+# How ./dev mobile-cost reads what the compilers say.
+run_cost() {
+  run_logged cost in_time "$PYTHON" "$ROOT/tests/commands/mobile_cost_test.py"
+  judge cost
+}
+
 # The judge of the runners.
 run_harness() {
   run_logged harness in_time "$PYTHON" "$ROOT/tools/testing/results_test.py"

@@ -1,0 +1,139 @@
+"""The report of ./dev mobile-cost: README.md, results.json, results.csv and cost.svg."""
+
+import csv
+import io
+import json
+
+import figures
+from gpus import GPUS
+
+COLUMNS = (
+    "gpu renderer variant instructions own registers texture nops move alu special full half waves static unknown_loops"
+    " cycles vertex mesa"
+).split()
+# Adreno 630, Mobile.
+GOALS = (
+    ("gmm8", "instructions", 1000),
+    ("gmm8", "registers", 16),
+    ("gmm4", "instructions", 650),
+)
+GOAL_GPU = "adreno630"
+QUARTER = ("gmm8", "fis40")
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "| --- |" + " ---: |" * (len(head) - 1)]
+    return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows])
+
+
+def _exactly(row):
+    return f"{'≥ ' if row['unknown_loops'] else ''}{row['instructions']}"
+
+
+def _own(row):
+    # The unshaded one is less than the base.
+    return row["own"] if row["own"] >= 0 else "–"
+
+
+def adreno_table(rows, variants):
+    head = ["variant", "instructions", "own", "of them nops", "special", "fetches", "registers", "waves", "vertex"]
+    return table(
+        head,
+        [
+            [variants[r["variant"]]["label"], _exactly(r), _own(r), r["nops"], r["special"], r["texture"], r["registers"]]
+            + [r["waves"], r["vertex"]]
+            for r in rows
+        ],
+    )
+
+
+def mali_table(rows, variants):
+    head = ["variant", "instructions", "own", "cycles", "busiest units (cycles)", "registers", "threads", "vertex"]
+
+    def units(row):
+        busiest = sorted(row["units"].items(), key=lambda unit: -unit[1])[:3]
+        return ", ".join(f"{name} {cycles:.1f}" for name, cycles in busiest)
+
+    return table(
+        head,
+        [
+            [variants[r["variant"]]["label"], _exactly(r), _own(r), f"{r['cycles']:.1f}", units(r), r["registers"]]
+            + [r["waves"], r["vertex"]]
+            for r in rows
+        ],
+    )
+
+
+def goals(rows):
+    """[(sentence, reached)] of what can be told from these rows."""
+    found = {row["variant"]: row for row in rows if row["gpu"] == GOAL_GPU}
+    told = []
+    for variant, figure, most in GOALS:
+        if variant in found:
+            value = found[variant][figure]
+            told.append((f"{variant}: {value} {figure}, at most {most} wanted", value <= most))
+    ours, theirs = (found.get(name) for name in QUARTER)
+    if ours and theirs:
+        share = ours["instructions"] / theirs["instructions"]
+        told.append((f"{QUARTER[0]} over {QUARTER[1]}: {share:.3f} of the instructions, less than 0.25 wanted", share < 0.25))
+    return told
+
+
+def summary(rows, variants):
+    lines = []
+    for gpu in dict.fromkeys(row["gpu"] for row in rows):
+        lines.append(f"{GPUS[gpu].label}, {GPUS[gpu].renderer}:")
+        for row in rows:
+            if row["gpu"] == gpu:
+                label = variants[row["variant"]]["label"]
+                lines.append(f"  {label:64} {_exactly(row):>6} instructions {row['registers']:3} registers {row['waves']:3} waves")
+    lines += [f"{'reached' if reached else 'MISSED '}  {sentence}" for sentence, reached in goals(rows)]
+    return "\n".join(lines)
+
+
+INTRODUCTION = """# What a pixel costs on phones
+
+Written by `./dev mobile-cost`: statistics of Mesa {mesa}'s shader compilers for shaders as the engine
+hands them to the driver, without a phone. They rank variants; they are not milliseconds, and Qualcomm's and Arm's own
+compilers will differ.
+
+- *instructions*: issue slots of the fragment shader, repeats and nops included, as the compiler counts them. What is listed
+  was counted again from the listing and equals the compiler's totals (slots, nops, categories, loops, registers).
+  The preamble, which runs once a draw, is left out. Instructions of loops count as often as the loop runs; “≥” marks loops
+  whose trips the listing does not tell.
+- *own*: without what the engine's scene shader takes for an empty material of the same render mode.
+- *registers*: of four 32-bit numbers; from Adreno 6xx on 16-bit ones lie in them. *waves*: how many the GPU keeps in flight.
+- The scene is one sphere under a sky, without lights, fog or decals: Mobile's pipelines are specialised to it, as on a phone,
+  and Compatibility's programs are its variant for that. Mesa uses no half floats on Adreno 320.
+- *vertex*: of the vertex shader.
+"""
+
+
+def readme(rows, variants, mesa):
+    parts = [INTRODUCTION.format(mesa=mesa), "![Instructions of every variant](cost.svg)\n"]
+    told = goals(rows)
+    if told:
+        parts.append("## Goals (Adreno 630, Mobile)\n")
+        parts.append("\n".join(f"- {sentence}: {'reached' if reached else '**missed**'}" for sentence, reached in told) + "\n")
+    for name in dict.fromkeys(row["gpu"] for row in rows):
+        gpu = GPUS[name]
+        of_gpu = [row for row in rows if row["gpu"] == name]
+        renderer = {"mobile": "Mobile", "gl_compatibility": "Compatibility"}[gpu.renderer]
+        parts.append(f"## {gpu.label}, {renderer} ({gpu.phones})\n")
+        parts.append((mali_table if gpu.family == "mali" else adreno_table)(of_gpu, variants) + "\n")
+    return "\n".join(parts)
+
+
+def comma_separated(rows):
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, extrasaction="ignore", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def write_all(folder, rows, variants, mesa, write):
+    write(folder / "results.json", json.dumps(rows, indent=1) + "\n")
+    write(folder / "results.csv", comma_separated(rows))
+    figures.cost(rows, variants, folder / "cost.svg")
+    write(folder / "README.md", readme(rows, variants, mesa))
