@@ -23,6 +23,8 @@ extends ShaderMaterial
 ## [ShaderMaterial] for white.
 ## [br]- [Decal]s change what the engine's lights show, and add their emission; the environment's
 ## light does not know of them.
+## [br]- Compatibility, as of Godot 4.6, gives skinned meshes one and the same tangent everywhere:
+## anisotropy and normal maps need another renderer there.
 ## [br]- A material shows the same environment in all viewports.
 ## [br][br]
 ## The shader is generated from the properties and shared by materials of the same kind; what is not

@@ -64,6 +64,9 @@ static func emits(material: LobeMaterial3D) -> bool:
 static func _render_modes(material: LobeMaterial3D) -> PackedStringArray:
 	var modes: PackedStringArray = ["ambient_light_disabled"]
 	# What is the engine's default is left out.
+	if is_dielectric(material):
+		# As Godot's own materials are lit by its lights.
+		modes.append("diffuse_burley")
 	if material.blend_mode != LobeMaterial3D.BlendMode.MIX:
 		modes.append(_BLEND_MODES[material.blend_mode])
 	if material.cull_mode != LobeMaterial3D.CullMode.BACK:
