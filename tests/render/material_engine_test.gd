@@ -283,8 +283,8 @@ func _brightest(image: Image) -> float:
 	return most
 
 
-# The angle of the highlight's long axis and the ratio of the axes, from its second moments. Weighted
-# by the square of the light, which leaves the tails out.
+# The angle of the highlight's long axis and the ratio of the axes, from its second moments.
+# Weighted by the square of the light, which leaves the tails out.
 func _axes(image: Image) -> Vector2:
 	var sum := 0.0
 	var mean := Vector2.ZERO
