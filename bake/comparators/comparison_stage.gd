@@ -69,8 +69,10 @@ func light(used_filter: String) -> EnvironmentLight:
 		made = EnvironmentLight.new()
 		made.cubemap = environment.get_cubemap()
 		made.size = made.cubemap.get_width()
-		made.level_variance = Pyramid.LEVEL_VARIANCES[FILTERS[used_filter]]
-		made.is_even = Pyramid.is_round(FILTERS[used_filter] as Pyramid.Filter)
+		var kind := FILTERS[used_filter] as Pyramid.Filter
+		made.level_variance = Pyramid.LEVEL_VARIANCES[kind]
+		made.base_variance = Pyramid.base_variance(panorama, made.size, kind)
+		made.is_even = Pyramid.is_round(kind)
 		_lights[used_filter] = made
 	environment.free()
 	return made

@@ -243,7 +243,7 @@ func test_toral_levels() -> void:
 func test_dual_paraboloid_map_has_levels_of_two_by_two_means() -> void:
 	_stage.panorama = Kit.make_panorama(16, _linear)
 	var map := await _stage.dual_paraboloid_map()
-	assert_int(map.side).is_equal(32)
+	assert_int(map.side).is_equal(64)
 	for half in 2:
 		var image: Image = map.texture.get_layer_data(half)
 		# Compatibility reads only the finest level back.

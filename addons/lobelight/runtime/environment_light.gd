@@ -8,6 +8,8 @@ var cubemap: TextureLayered
 var size := 1
 ## How much the levels blur: c in shaders/environment.gdshaderinc.
 var level_variance := 1.0 / 12.0
+## How much level 0 is blurred: b in shaders/environment.gdshaderinc.
+var base_variance := 0.0
 ## Whether they blur alike in all directions, rather than as the texels of the cube are stretched.
 var is_even := false
 ## From the environment to the world; orthonormal.
@@ -17,7 +19,7 @@ var energy := 1.0
 
 ## Hands the light to a material of the rendering server.
 func apply(material: RID) -> void:
-	var level := Vector3(0.25 * size * size, level_variance, 1.0 if is_even else 0.0)
+	var level := Vector4(0.25 * size * size, level_variance, 1.0 if is_even else 0.0, base_variance)
 	var server := RenderingServer
 	server.material_set_param(material, &"lobelight_environment", cubemap.get_rid())
 	server.material_set_param(material, &"lobelight_environment_level", level)

@@ -27,6 +27,10 @@ const MAX_AUTOMATIC_SIZE := 512
 const COLUMNS := 3
 const ROWS := 2
 const _MAX_SAMPLES := 8
+# Between levels that blur by four times the variance of one another, and sharpness.
+const _BASE_SHARE := 0.5
+# Along the diameter of the kernel that level 0 is blurred with.
+const _KERNEL_SAMPLES := 8
 # Formats that hold linear light; the others hold sRGB.
 const _LINEAR_FORMATS: Array[Image.Format] = [
 	Image.FORMAT_RF,
@@ -46,6 +50,8 @@ const _LINEAR_FORMATS: Array[Image.Format] = [
 
 var size := 0
 var filter := Filter.DISC
+## What level 0 is blurred by: b in shaders/environment.gdshaderinc.
+var level_0_variance := 0.0
 ## The passes, the finest level first.
 var levels: Array[CanvasPass] = []
 
@@ -63,11 +69,22 @@ static func is_round(filter: Filter) -> bool:
 	return filter == Filter.GAUSSIAN or filter == Filter.DISC
 
 
-## The size chosen for a panorama where none is asked for: its columns over half the circle, up to
-## a power of two.
+## The size chosen for a panorama where none is asked for: its width up to a power of two. Four
+## texels for one of the panorama, so that the sharpest lobes, no wider than these, are looked up
+## between blurred levels.
 static func automatic_size(panorama: Texture2D) -> int:
-	var wanted := nearest_po2(maxi(ceili(panorama.get_width() / 2.0), 1))
+	var wanted := nearest_po2(panorama.get_width())
 	return clampi(wanted, MIN_SIZE, MAX_AUTOMATIC_SIZE)
+
+
+## What level 0 is blurred by, as [constant LEVEL_VARIANCES]. Where the panorama's texels are no
+## finer than two of the cube's, round filters blur it by less than one of them: level 1 would blur
+## by twenty times the variance of a sharp level 0, and narrow lobes, which are looked up between
+## the two, would suffer. Finer panoramas stay as sharp as the cube can show them.
+static func base_variance(panorama: Texture2D, face_size: int, used_filter: Filter) -> float:
+	if is_round(used_filter) and panorama.get_width() <= 2 * face_size:
+		return _BASE_SHARE * LEVEL_VARIANCES[used_filter]
+	return 0.0
 
 
 ## Makes level 0 from a panorama; faces will have [param face_size] texels a side, a power of two.
@@ -77,13 +94,17 @@ func set_up_panorama(
 	panorama: Texture2D, face_size: int, used_filter: Filter, as_sky := false
 ) -> void:
 	_panorama = panorama
+	level_0_variance = base_variance(panorama, face_size, used_filter)
+	var samples := clampi(ceili(panorama.get_width() / (2.0 * face_size)), 1, _MAX_SAMPLES)
 	var format := RenderingServer.texture_get_format(panorama.get_rid())
 	var parameters: Dictionary[StringName, Variant] = {
 		&"panorama": panorama.get_rid(),
 		&"panorama_is_srgb": format not in _LINEAR_FORMATS,
 		&"panorama_as_sky": as_sky,
 		&"face_size": face_size,
-		&"samples": clampi(ceili(panorama.get_width() / (2.0 * face_size)), 1, _MAX_SAMPLES),
+		&"samples": samples if level_0_variance == 0.0 else _KERNEL_SAMPLES,
+		&"kernel_variance": level_0_variance,
+		&"is_gaussian": used_filter == Filter.GAUSSIAN,
 	}
 	_set_up_levels(face_size, used_filter, PanoramaShader, parameters)
 

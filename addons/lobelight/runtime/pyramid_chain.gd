@@ -81,6 +81,7 @@ func get_light() -> EnvironmentLight:
 		_light.cubemap = cube.texture
 		_light.size = pyramid.size
 		_light.level_variance = Pyramid.LEVEL_VARIANCES[pyramid.filter]
+		_light.base_variance = pyramid.level_0_variance
 		_light.is_even = Pyramid.is_round(pyramid.filter)
 	return _light
 
