@@ -3,8 +3,7 @@
 
     python3 tools/compare/refinement.py MAP… [--size N] [--json FILE]
 
-Prints dB without and with refinement for each map and material, and the mean gain of each material. The figures in the
-class reference are those of the maps in demo/environments and tests/data and of three that are not in the repository.
+Prints dB without and with refinement for each map and material, and the mean gain of each material.
 """
 
 import argparse
