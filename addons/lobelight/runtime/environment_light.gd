@@ -2,6 +2,9 @@
 extends RefCounted
 ## The light of an environment as the shaders take it: a pyramid, a rotation and a factor.
 
+# A unit vector's largest component is at least this.
+const _LEAST_COMPONENT := 0.57735027
+
 ## Half-float cube map with all its mip levels, linear radiance.
 var cubemap: TextureLayered
 ## Texels along the side of a face.
@@ -19,10 +22,10 @@ var energy := 1.0
 
 ## Hands the light to a material of the rendering server.
 func apply(material: RID) -> void:
-	var level := Vector4(0.25 * size * size, level_variance, 1.0 if is_even else 0.0, base_variance)
 	var server := RenderingServer
 	server.material_set_param(material, &"lobelight_environment", cubemap.get_rid())
-	server.material_set_param(material, &"lobelight_environment_level", level)
+	server.material_set_param(material, &"lobelight_environment_sharpest", _get_sharpest())
+	server.material_set_param(material, &"lobelight_environment_level", _get_level())
 	apply_placement(material)
 
 
@@ -32,3 +35,31 @@ func apply_placement(material: RID) -> void:
 	var to_environment := rotation.transposed()
 	server.material_set_param(material, &"lobelight_environment_rotation", to_environment)
 	server.material_set_param(material, &"lobelight_environment_energy", energy)
+
+
+# Of the formula in shaders/environment.gdshaderinc, s: a line through its ends.
+func _get_sharpest() -> Vector2:
+	var texel := 4.0 / (size * size)
+	var slope := 0.0
+	if not is_even:
+		slope = level_variance * (1.0 - pow(_LEAST_COMPONENT, 3.0)) / (1.0 - _LEAST_COMPONENT)
+	return texel * Vector2(level_variance - base_variance - slope, slope)
+
+
+# Of the same, k: a parabola through its ends and its middle.
+func _get_level() -> Vector3:
+	var middle := 0.5 * (_LEAST_COMPONENT + 1.0)
+	var first := _get_level_at(_LEAST_COMPONENT)
+	var last := _get_level_at(1.0)
+	var slope := (last - first) / (1.0 - _LEAST_COMPONENT)
+	# Newton's divided differences.
+	var bend := slope - (_get_level_at(middle) - first) / (middle - _LEAST_COMPONENT)
+	bend /= 1.0 - middle
+	var linear := slope - bend * (_LEAST_COMPONENT + 1.0)
+	return Vector3(last - linear - bend, linear, bend)
+
+
+func _get_level_at(component: float) -> float:
+	var cube := pow(component, 3.0)
+	var texel := 4.0 / (size * size) * (level_variance * (1.0 if is_even else cube) + cube / 6.0)
+	return -0.5 * log(texel) / log(2.0)
