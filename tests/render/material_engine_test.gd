@@ -222,6 +222,13 @@ func test_uneven_scale() -> void:
 		_assert_close(image.get_pixelv(pixel).r, expected, 0.015, "at %s" % pixel)
 
 
+func _mesh_of(arrays: Array, material: Material) -> ArrayMesh:
+	var mesh := ArrayMesh.new()
+	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+	mesh.surface_set_material(0, material)
+	return mesh
+
+
 func _material() -> LobeMaterial3D:
 	var material := LobeMaterial3D.new()
 	material.table_set = _tables
@@ -341,13 +348,10 @@ func _skinned(material: Material) -> Skeleton3D:
 		weights[4 * i] = 1.0
 	arrays[Mesh.ARRAY_BONES] = bones
 	arrays[Mesh.ARRAY_WEIGHTS] = weights
-	var mesh := ArrayMesh.new()
-	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
-	mesh.surface_set_material(0, material)
 	var skeleton := Skeleton3D.new()
 	skeleton.add_bone("root")
 	var instance := MeshInstance3D.new()
-	instance.mesh = mesh
+	instance.mesh = _mesh_of(arrays, material)
 	skeleton.add_child(instance)
 	instance.skeleton = NodePath("..")
 	instance.skin = skeleton.create_skin_from_rest_transforms()

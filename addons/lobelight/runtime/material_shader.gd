@@ -82,6 +82,8 @@ static func _defines(material: LobeMaterial3D, choice: TableChoice) -> PackedStr
 		defines.append("ISOTROPIC")
 	elif choice.table != null and choice.table == material.table and choice.anisotropy < 0.0:
 		defines.append("WIDE_BITANGENT")
+	if not choice.is_isotropic and choice.rotation != 0.0:
+		defines.append("TURNED")
 	if choice.widths_texture != null:
 		defines.append("WIDTHS_PER_PIXEL")
 	elif choice.table.has_second_texels():
