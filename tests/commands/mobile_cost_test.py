@@ -118,6 +118,11 @@ class Ir3Test(unittest.TestCase):
         self.assertIsNone(trips("r3.x", "cmps.s.ge p0.x, r0.x, 12", "add.u r0.x, r0.x, 1"))
         self.assertIsNone(trips(0, "cmps.s.ge p0.x, r0.x, 12", "shl.b r0.x, r0.x, 1"))
 
+    def test_prefetches_are_no_instructions(self):
+        body = ["@tex(r0.z)	src=6, bindless=1, samp=33, tex=1, wrmask=0x7, opc=sam", "mov.f32f32 r0.x, r0.z", "end"]
+        shader = ir3.parse_listing(listing_like(body))
+        self.assertEqual((shader.prefetches, shader.weighted().fetches, shader.weighted().slots), (1, 0, 2))
+
     def test_loops_inside_loops(self):
         def count(register, limit):
             return [f"add.u {register}, {register}, 1", f"cmps.s.ge p0.x, {register}, {limit}"]
@@ -130,7 +135,7 @@ class Ir3Test(unittest.TestCase):
 class EngineTest(unittest.TestCase):
     def test_the_specialised_pipeline_is_the_smaller_of_two(self):
         def shader(stage, program, instructions):
-            return ir3.Shader(stage, program, 1, [], {}, [], {"instructions": instructions})
+            return ir3.Shader(stage, program, 1, [], {}, [], 0, {"instructions": instructions})
 
         pipelines = [shader("VERT", 4, 30), shader("FRAG", 5, 400), shader("VERT", 6, 90), shader("FRAG", 7, 5000)]
         fragment, vertex = engine.specialised(pipelines)

@@ -62,7 +62,9 @@ func _make_material(variant: Dictionary) -> Material:
 			material = StandardMaterial3D.new()
 		"lobes":
 			material = LobeMaterial3D.new()
-			material.set(&"table", _make_table(variant))
+			# Without a table, the material takes those of the ready set.
+			if variant.has("lobes"):
+				material.set(&"table", _make_table(variant))
 		"shader":
 			material = _make_shader("\n".join(PackedStringArray(variant["code"] as Array)))
 	var properties: Dictionary = variant.get("properties", {})

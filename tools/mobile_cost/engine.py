@@ -1,8 +1,8 @@
 """Runs the engine on drivers without a GPU and takes what they compile, one variant at a time.
 
 Mobile runs on Mesa's Vulkan driver for Adreno GPUs over a no-op kernel (mesa-drm-shim): the driver compiles every pipeline
-as on a phone and prints it. Compatibility runs on Mesa's software driver, which stores every program's GLSL; gl.py compiles
-that for other GPUs.
+as on a phone and prints it. Compatibility runs on Mesa's software driver, which stores every program's GLSL;
+gl_compile.py compiles that for other GPUs.
 """
 
 import os
@@ -56,10 +56,7 @@ def _on_one_processor():
 
 
 class Engine:
-    """The engine drawing variants; to be used in a `with` statement.
-
-    `collect(names, done)` gives (name, lines): the lines that came on stderr while a variant was drawn, when `done(lines)`
-    holds and no more come."""
+    """The engine drawing variants; to be used in a `with` statement."""
 
     def __init__(self, engine, work, method, driver, variables, preload=None):
         self._handshake = work / "drawn"
@@ -91,7 +88,9 @@ class Engine:
                 self._lines.append(line)
                 self._changed = time.monotonic()
 
-    def collect(self, names, done):
+    def collect(self, names, done, warmed_up=lambda: None):
+        """Gives (name, lines): the lines that came on stderr while a variant was drawn, when `done(lines)` holds and no
+        more come. Something else is drawn first, until warmed_up() is called: what the engine compiles for itself."""
         self._process = subprocess.Popen(
             ["bash", str(DISPLAY), *self._program, ",".join(names)],
             env=self._environment,
@@ -104,8 +103,8 @@ class Engine:
         )
         reader = threading.Thread(target=self._read, daemon=True)
         reader.start()
-        # What the engine compiles for itself comes while something else is drawn.
         self._wait_for(_WARM_UP, done)
+        warmed_up()
         (self._handshake / _WARM_UP).touch()
         for name in names:
             yield name, self._wait_for(name, done)

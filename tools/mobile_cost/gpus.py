@@ -60,7 +60,8 @@ class Paths:
             }
         return {"FD_GPU_ID": str(gpu.model), "IR3_SHADER_DEBUG": "vs,fs", "FD_MESA_DEBUG": "serialc"}
 
-    def mesa(self):
+    def mesa(self, family):
         """The version of the compilers, as the package has it."""
-        name = next(self.libraries(self.engine / "root").glob("libgallium-*.so")).name
+        root = self.arm64 if family == "mali" else self.engine / "root"
+        name = next(self.libraries(root).glob("libgallium-*.so")).name
         return re.fullmatch(r"libgallium-(.+)\.so", name)[1]

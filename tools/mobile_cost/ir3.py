@@ -105,6 +105,7 @@ class Shader:
     instructions: list
     labels: dict
     inputs: list  # (half, register, component, how many components) of what is there at the start
+    prefetches: int  # texture fetches that the GPU makes before the shader starts; no instructions
     statistics: dict  # the compiler's own
 
     def preamble_end(self):
@@ -289,12 +290,13 @@ def parse_listing(lines):
     end = next((m for m in map(_END.match, lines) if m), None)
     if not end:
         raise ListingError("the listing has no end")
-    instructions, labels, inputs = [], {}, []
+    instructions, labels, inputs, prefetches = [], {}, [], 0
     for line in lines:
         line = line.strip()
         given = _INPUT.match(line)
         if given:
             inputs.append((bool(given[1]), int(given[2]), "xyzw".index(given[3]), int(given[4], 16).bit_length()))
+        prefetches += line.startswith("@tex(")
         if not line or line[0] in "@;":
             continue
         label = _LABEL.match(line)
@@ -305,7 +307,7 @@ def parse_listing(lines):
         # Behind the end there is padding.
         if instruction and not (instructions and instructions[-1].name == "end"):
             instructions.append(instruction)
-    return Shader(end[1], int(end[2]), int(end[3]), instructions, labels, inputs, read_statistics(lines))
+    return Shader(end[1], int(end[2]), int(end[3]), instructions, labels, inputs, prefetches, read_statistics(lines))
 
 
 def shaders_of(log):

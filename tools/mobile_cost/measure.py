@@ -24,7 +24,7 @@ def adreno_row(fragment, vertex):
     return {
         "instructions": counts.slots,
         "registers": said["full"] + math.ceil(said["half"] / 2),
-        "texture": counts.fetches,
+        "texture": counts.fetches + fragment.prefetches,
         "nops": counts.nops,
         "move": names["move"],
         "alu": names["alu"] + names["mad"],
@@ -53,12 +53,13 @@ def mobile(gpu, names, paths):
         with run:
             for name, lines in run.collect(missing, engine.is_compiled):
                 try:
-                    yield name, adreno_row(*engine.specialised(engine.pipelines_of(lines)))
+                    row = adreno_row(*engine.specialised(engine.pipelines_of(lines)))
                 except (ir3.ListingError, engine.EngineError) as error:
                     # Two threads wrote at once; another time they will not.
                     problem = error
                     continue
                 missing = [other for other in missing if other != name]
+                yield name, row
         if not missing:
             return
     raise engine.EngineError(f"{missing[0]} on {gpu.label}: {problem}")
@@ -76,11 +77,14 @@ def capture(names, paths):
     def is_stored(_lines):
         return engine.drawn_program(stored, known) is not None
 
+    def forget():
+        known.update(path.name for path in stored.iterdir())
+
     run = engine.Engine(paths.engine, paths.work / "capture", "gl_compatibility", "opengl3_es", variables)
     with run:
-        for name, _ in run.collect(names, is_stored):
+        for name, _ in run.collect(names, is_stored, forget):
             vertex, fragment = engine.drawn_program(stored, known)
-            known |= {path.name for path in stored.iterdir()}
+            forget()
             (programs / name).mkdir()
             (programs / name / "vertex.glsl").write_text(vertex, encoding="utf-8")
             (programs / name / "fragment.glsl").write_text(fragment, encoding="utf-8")
@@ -88,7 +92,7 @@ def capture(names, paths):
 
 
 def compile_glsl(gpu, name, paths):
-    """What the driver says about a captured program, and the name it gives the GPU; [str], str."""
+    """What the driver says about a captured program, as lines."""
     program = paths.interpreter(gpu) + [str(engine.ROOT / "tools/mobile_cost/gl_compile.py"), str(paths.work / "glsl" / name)]
     environment = {**engine.base_environment(paths.engine, paths.work), **paths.gl_environment(gpu)}
     done = subprocess.run(

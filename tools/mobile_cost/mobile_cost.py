@@ -75,9 +75,9 @@ def read_options(arguments):
     return options
 
 
-def source_key(mesa, engine_key):
+def source_key(versions):
     """Hash of everything that a row depends on."""
-    digest = hashlib.sha256(f"{mesa} {engine_key}".encode())
+    digest = hashlib.sha256(versions.encode())
     for folder in SOURCES:
         for path in sorted((ROOT / folder).rglob("*")):
             if path.suffix in ENDINGS and path.name not in ("report.py", "figures.py"):
@@ -120,7 +120,7 @@ class Progress:
         print(f"[{self._done}/{self._todo}] {text}  {left:.0f} s left", file=sys.stderr, flush=True)
 
 
-def measure_all(options, rows, paths, mesa):
+def measure_all(options, rows, paths):
     missing = {gpu: [name for name in options.variants if options.again or not rows.get(gpu, name)] for gpu in options.gpus}
     captured = [n for n in options.variants if any(n in missing[g] for g in options.gpus if g.renderer != "mobile")]
     progress = Progress(sum(map(len, missing.values())) + len(captured))
@@ -130,6 +130,7 @@ def measure_all(options, rows, paths, mesa):
     for gpu in options.gpus:
         if not missing[gpu]:
             continue
+        mesa = paths.mesa(gpu.family)
         method = measure.mobile if gpu.renderer == "mobile" else measure.compatibility
         for name, counted in method(gpu, missing[gpu], paths):
             rows.add({"gpu": gpu.name, "renderer": gpu.renderer, "variant": name, **counted, "mesa": mesa})
@@ -139,9 +140,8 @@ def measure_all(options, rows, paths, mesa):
 def run(options):
     paths = Paths(os.environ["MOBILE_ENGINE"], os.environ.get("MOBILE_COMPILERS"), WORK, os.environ.get("MOBILE_COMPILERS_MALI"))
     WORK.mkdir(parents=True, exist_ok=True)
-    mesa = paths.mesa()
-    rows = Rows(WORK / "rows.json", source_key(mesa, (paths.engine / "key").read_text(encoding="utf-8")))
-    measure_all(options, rows, paths, mesa)
+    rows = Rows(WORK / "rows.json", source_key((paths.engine / "key").read_text(encoding="utf-8") + paths.mesa("adreno")))
+    measure_all(options, rows, paths)
     found = []
     for gpu in options.gpus:
         base = rows.get(gpu, BASE)["instructions"]
@@ -149,11 +149,11 @@ def run(options):
     # Brings the plots, which what only looks at the options does without.
     import report
 
-    report.write_all(options.out, found, VARIANTS, mesa, write)
+    report.write_all(options.out, found, VARIANTS, write)
     if options.json:
         write(options.json, json.dumps(found, indent=1) + "\n")
     print(report.summary(found, VARIANTS))
-    print(f"Mesa {mesa}; the report is {options.out / 'README.md'}")
+    print(f"Mesa {report.versions(found)}; the report is {options.out / 'README.md'}")
 
 
 def main(arguments):
