@@ -3,13 +3,16 @@ extends EditorPlugin
 ## The editor's side of Lobelight.
 ##
 ## The types of the run time register themselves by their class names, and the
-## baker by the native library; what is added here are conversions of materials.
+## baker by the native library; what is added here are conversions of materials, and a warning about
+## meshes that lack tangents.
 
 const MaterialConversionPlugin := preload("material_conversion_plugin.gd")
 const SceneConversionMenu := preload("scene_conversion_menu.gd")
+const TangentWarning := preload("tangent_warning.gd")
 
 var _conversions: Array[MaterialConversionPlugin] = []
 var _scene_menu: SceneConversionMenu
+var _tangent_warning: TangentWarning
 
 
 func _enter_tree() -> void:
@@ -19,6 +22,8 @@ func _enter_tree() -> void:
 		add_resource_conversion_plugin(conversion)
 	_scene_menu = SceneConversionMenu.new(get_undo_redo())
 	add_context_menu_plugin(EditorContextMenuPlugin.CONTEXT_SLOT_SCENE_TREE, _scene_menu)
+	_tangent_warning = TangentWarning.new()
+	add_inspector_plugin(_tangent_warning)
 
 
 func _exit_tree() -> void:
@@ -27,3 +32,5 @@ func _exit_tree() -> void:
 	_conversions.clear()
 	remove_context_menu_plugin(_scene_menu)
 	_scene_menu = null
+	remove_inspector_plugin(_tangent_warning)
+	_tangent_warning = null

@@ -17,10 +17,9 @@ extends ShaderMaterial
 ## [br]- Its own lights, their shadows, and fog work as on any material. Its lights are not
 ## compensated for lost energy, and in Compatibility, lights with shadows are added in sRGB.
 ## [br]- Its ambient light, reflections of the sky, [ReflectionProbe]s, lightmaps, [VoxelGI] and
-## SDFGI do not light the material: the environment does, once. What the material reflects is not
-## taken for a lamp by lightmaps, SDFGI and VoxelGI, but [member emission] is. They know its
-## [member albedo], with the exception of [VoxelGI], which takes static objects with any
-## [ShaderMaterial] for white.
+## SDFGI do not light the material: the environment does, once. When they ask what the material
+## sends out, it answers with its [member emission] alone, not with what it reflects. A [VoxelGI]
+## takes static objects with any [ShaderMaterial] for white.
 ## [br]- [Decal]s change what the engine's lights show, and add their emission; the environment's
 ## light does not know of them.
 ## [br]- Compatibility, as of Godot 4.6, gives skinned meshes one and the same tangent everywhere:
@@ -326,11 +325,14 @@ var _shader: Shader
 var _choice := TableChoice.new()
 
 
-## The widths (alpha_x, alpha_y) of the BRDF along and across the brushing: [codeblock lang=text]
-## alpha_x = r² / aspect    alpha_y = r² · aspect    aspect = √(1 − 0.9 a) [/codeblock] with the
-## roughness r and the anisotropy a. These are the engine's own, so that a material looks the same
-## in its lights. Godot's anisotropy ends at a = 1, 10:1; here it goes on to 1.1, 100:1. With a <
-## 0, alpha_y is the larger one.
+## The widths (alpha_x, alpha_y) of the BRDF along and across the brushing:
+## [codeblock lang=text]
+## alpha_x = r² / aspect    alpha_y = r² · aspect    aspect = √(1 − 0.9 a)
+## [/codeblock]
+## with the roughness r and the anisotropy a. These are the engine's own, so that a material looks
+## the same in its lights. Godot's anisotropy ends at a = 1, 10:1; here it goes on to 1.1, 100:1.
+## With a < 0, alpha_y is the larger one. A set's tables end where its widths do, the ready ones at
+## 0.005 and 1: what is beyond is taken for the last.
 static func widths_of(roughness_of_surface: float, anisotropy_of_surface: float) -> Vector2:
 	return Widths.from_roughness(roughness_of_surface, anisotropy_of_surface)
 
@@ -377,6 +379,13 @@ func _validate_property(property: Dictionary) -> void:
 func get_shader_code() -> String:
 	_choice.choose(self)
 	return MaterialShader.get_code(self, _choice) + '#include "%s"\n' % _get_fragment_path()
+
+
+## Whether meshes need tangents for the material: with anisotropy and with normal maps. For a mesh
+## that has none the engine makes some up, across the normal; the inspector of its node warns of it.
+func needs_tangents() -> bool:
+	_choice.choose(self)
+	return normal_texture != null or not _choice.is_isotropic
 
 
 ## How often a pixel looks something up, counted from the shader:
