@@ -2,6 +2,7 @@ extends GdUnitTestSuite
 ## LobeEnvironment3D rebuilds when it should, and never more than it should.
 
 const Kit := preload("support/render_kit.gd")
+const SkyKit := preload("support/sky_kit.gd")
 
 var _environment: LobeEnvironment3D
 var _rebuilt := 0
@@ -91,6 +92,39 @@ func test_without_a_panorama_there_is_no_light() -> void:
 	_environment.panorama = null
 	assert_bool(await _environment.rebuild()).is_false()
 	assert_object(_environment.get_cubemap()).is_null()
+
+
+func test_materials_belong_to_all_worlds() -> void:
+	var views: Array[LinearViewport] = [LinearViewport.new(8), LinearViewport.new(8)]
+	var lights: Array[LobeEnvironment3D] = []
+	for i in 2:
+		add_child(views[i])
+		views[i].add_child(SkyKit.make_mirror())
+		lights.append(LobeEnvironment3D.new())
+		lights[i].panorama = Kit.constant(1.0 + i)
+		lights[i].update_mode = LobeEnvironment3D.UpdateMode.ONCE
+	views[0].add_child(lights[0])
+	await lights[0].rebuild()
+	var add_second := func() -> void:
+		views[1].add_child(lights[1])
+		await lights[1].rebuild()
+	await (
+		assert_error(add_second)
+		. is_push_warning(
+			(
+				"LobeEnvironment3D: another world has one as well; LobeMaterial3Ds in all worlds are lit by"
+				+ " the one that came last."
+			)
+		)
+	)
+	# The one that came last lights both; once it has gone, the other does.
+	for expected: float in [2.0, 1.0]:
+		for view in views:
+			var image: Image = await view.capture()
+			assert_float(image.get_pixel(4, 4).g).is_equal_approx(expected, 0.01)
+		lights[1].hide()
+	for view in views:
+		view.free()
 
 
 func test_automatic_size() -> void:

@@ -34,11 +34,14 @@ static func remove_material(material: RID) -> void:
 
 
 ## Makes a light the current one, or replaces the one that the same owner offered before.
-static func offer(owner: int, light: EnvironmentLight) -> void:
+## Whether there are offers of others.
+static func offer(owner: int, light: EnvironmentLight) -> bool:
 	_mutex.lock()
 	_lights[owner] = light
+	var has_others := _lights.size() > 1
 	_apply_to_all()
 	_mutex.unlock()
+	return has_others
 
 
 ## Hands on an offered light's rotation and energy after they have changed.

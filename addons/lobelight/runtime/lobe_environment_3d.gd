@@ -39,8 +39,8 @@ enum Source {
 	## [member panorama], turned by the node's rotation. Its position and scale do not matter.
 	PANORAMA,
 	## The scene around the node's position, and its sky. The node's rotation does not matter.
-	## [LobeMaterial3D]s in the scene show the light of the update before. The first capture is
-	## made twice, because Mobile draws a mesh without omni and spot lights the first time.
+	## [LobeMaterial3D]s in the scene show the light of the update before; the first capture is made
+	## twice, so that they do not show the neutral map.
 	CAPTURE,
 }
 
@@ -190,6 +190,8 @@ var _idle := 0
 # Whether the node lights its world, and from what its light was made.
 var _active := false
 var _light_kind := EnvironmentSource.Kind.NONE
+# Whether it has been said that materials belong to all worlds.
+var _warned := false
 # What the last update cost.
 var _gpu_time := 0.0
 var _cpu_time := 0.0
@@ -374,7 +376,6 @@ func _on_frame_post_draw() -> void:
 	_frames = 1 if _slice == _WHOLE else _slice
 	_cpu_time = _chain.transfer_time
 	_light_kind = _source.get_kind()
-	# In Mobile, omni and spot lights shine on a mesh from the second frame on that draws it.
 	if _light == null and _light_kind == EnvironmentSource.Kind.SCENE_VIEWS:
 		_stale = true
 	_set_light(_chain.get_light())
@@ -410,10 +411,17 @@ func _check_in() -> void:
 		return
 	update_configuration_warnings()
 	_active = is_active()
-	if _light != null and _active:
-		LightRegistry.offer(get_instance_id(), _light)
-	else:
+	if _light == null or not _active:
 		LightRegistry.withdraw(get_instance_id())
+		return
+	if LightRegistry.offer(get_instance_id(), _light) and not _warned:
+		_warned = true
+		push_warning(
+			(
+				"LobeEnvironment3D: another world has one as well; LobeMaterial3Ds in all worlds are"
+				+ " lit by the one that came last."
+			)
+		)
 
 
 func _update_placement() -> void:
