@@ -81,9 +81,9 @@ static var _variants_mutex := Mutex.new()
 		_follow(table_set, value)
 		table_set = value
 		_queue_update()
-## The lobes of one BRDF, measured ones for instance. With a table, [member table_set] does not
-## count, nor do [member roughness], [member anisotropy] and their textures, except for the engine's
-## own lights; the table is drawn as it is, without compensation for lost energy.
+## The lobes of one BRDF, measured ones for instance. With a table, [member table_set],
+## [member roughness] and [member anisotropy] do not count; the engine's own lights take the widths
+## of the table. It is drawn as it is, without compensation for lost energy.
 @export var table: LobeTable:
 	set(value):
 		_follow(table, value)
@@ -183,7 +183,9 @@ static var _variants_mutex := Mutex.new()
 		roughness = clampf(value, 0.0, 1.0)
 		_queue_update()
 ## A factor of [member roughness]. With it, tables are looked up for each pixel: as many fetches as
-## without where [member anisotropy] is 0, otherwise twice as many.
+## without where [member anisotropy] is 0, otherwise twice as many. The widths of a [member table_set]
+## must grow by equal factors for it, as those of the ready sets do; otherwise it is for the
+## engine's own lights only.
 @export var roughness_texture: Texture2D:
 	set(value):
 		roughness_texture = value
