@@ -183,7 +183,7 @@ static var _variants_mutex := Mutex.new()
 		roughness = clampf(value, 0.0, 1.0)
 		_queue_update()
 ## A factor of [member roughness]. With it, tables are looked up for each pixel: as many fetches as
-## without where [member anisotropy] is 0, otherwise twice as many. The widths of a [member table_set]
+## without where [member anisotropy] is 0, otherwise twice as many. The widths of [member table_set]
 ## must grow by equal factors for it, as those of the ready sets do; otherwise it is for the
 ## engine's own lights only.
 @export var roughness_texture: Texture2D:
