@@ -106,6 +106,25 @@ func test_diffuse_light_is_the_cosines() -> void:
 			assert_float(square.get_pixel(x, y).g).is_equal_approx(bent, 0.012)
 
 
+func test_diffuse_light_shows_no_star() -> void:
+	# Bright and dark sectors around the view: band 4 has them, the cosine hardly, least of all about
+	# the axis. What turns with the frame about the normal shows there.
+	var material := _material()
+	material.metallic = 0.0
+	material.specular = 0.0
+	_view.add_child(Kit.make_sphere(material, 128))
+	var sectors := func(d: Vector3) -> Color:
+		var sine := Vector2(d.x, d.y).length()
+		return Color.WHITE * (1.0 + 0.9 * pow(sine, 4.0) * cos(4.0 * atan2(d.y, d.x)))
+	await _light(Kit.make_panorama(128, sectors))
+	var image: Image = await _view.capture()
+	@warning_ignore("integer_division")
+	var middle := SIDE / 2
+	for y in range(middle - 3, middle + 3):
+		for x in range(middle - 3, middle + 3):
+			_assert_close(image.get_pixel(x, y).g, 1.0, 0.005, "(%d, %d)" % [x, y])
+
+
 func test_occlusion() -> void:
 	var material := _material()
 	material.albedo = Color.WHITE

@@ -198,4 +198,4 @@ func test_fetches_are_counted() -> void:
 	assert_dict(material.get_fetches()).is_equal({"environment": 8, "table": 16, "samplers": 2})
 	material.metallic = 0.0
 	material.clearcoat = 1.0
-	assert_dict(material.get_fetches()).is_equal({"environment": 20, "table": 24, "samplers": 3})
+	assert_dict(material.get_fetches()).is_equal({"environment": 22, "table": 24, "samplers": 3})

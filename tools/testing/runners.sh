@@ -95,6 +95,12 @@ run_cost() {
   judge cost
 }
 
+# One scene in the three renderers.
+run_renderers() {
+  run_logged renderers in_time bash "$ROOT/tests/commands/renderers_test.sh"
+  judge renderers
+}
+
 # The judge of the runners.
 run_harness() {
   run_logged harness in_time "$PYTHON" "$ROOT/tools/testing/results_test.py"

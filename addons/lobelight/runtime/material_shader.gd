@@ -17,7 +17,7 @@ const _FILTERS: PackedStringArray = [
 	"filter_linear_mipmap_anisotropic",
 ]
 ## Lookups of the diffuse light, see shaders/diffuse.gdshaderinc.
-const DIFFUSE_FETCHES := 4
+const DIFFUSE_FETCHES := 6
 
 
 ## Everything before the include of the fragment function.
