@@ -1,6 +1,6 @@
 extends GdUnitTestSuite
 ## What an update of a pyramid of 256 texels costs beside a frame of 720p that is lit by it: less,
-## with the filter that is the default. Both are drawn at a quarter of the side, for time's sake;
+## with the filter that is the default. Both are drawn at half of the side, for time's sake;
 ## LOBELIGHT_COST_SCALE=1 draws them whole.
 
 const Kit := preload("support/render_kit.gd")
@@ -23,7 +23,7 @@ func after() -> void:
 
 
 func test_an_update_costs_less_than_a_frame() -> void:
-	var scale := 4
+	var scale := 2
 	if OS.has_environment("LOBELIGHT_COST_SCALE"):
 		scale = OS.get_environment("LOBELIGHT_COST_SCALE").to_int()
 	var view := LinearViewport.new()
