@@ -98,18 +98,25 @@ func test_ambient_light_is_not_added() -> void:
 	await _light(Kit.constant(0.5))
 	var material := _material()
 	material.metallic = 0.0
-	_view.add_child(SphereImpostor.make_quad(material))
+	var quad := SphereImpostor.make_quad(material)
+	_view.add_child(quad)
 	var plain := await _middle()
+	var godots := StandardMaterial3D.new()
+	quad.material_override = godots
+	var dark := await _middle()
+	var surroundings := _view.camera.environment
+	surroundings.ambient_light_source = Environment.AMBIENT_SOURCE_COLOR
+	surroundings.ambient_light_color = Color.WHITE
+	surroundings.ambient_light_energy = 4.0
+	# There is such light, as Godot's material shows.
+	assert_float(await _middle()).is_greater(dark + 0.5)
+	quad.material_override = material
 	var probe := ReflectionProbe.new()
 	probe.size = Vector3(8.0, 8.0, 8.0)
 	probe.ambient_mode = ReflectionProbe.AMBIENT_COLOR
 	probe.ambient_color = Color.WHITE
 	probe.ambient_color_energy = 4.0
 	_view.add_child(probe)
-	var surroundings := _view.camera.environment
-	surroundings.ambient_light_source = Environment.AMBIENT_SOURCE_COLOR
-	surroundings.ambient_light_color = Color.WHITE
-	surroundings.ambient_light_energy = 4.0
 	_assert_close(await _middle(), plain, 0.004, "ambient light")
 
 

@@ -3,6 +3,7 @@ extends GdUnitTestSuite
 ## constant, and a radiance that is linear in the direction stays linear, with less slope.
 
 const Kit := preload("support/render_kit.gd")
+const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
 const SkyKit := preload("support/sky_kit.gd")
 const SIDE := 64
 const SIZE := 32
@@ -99,6 +100,13 @@ func test_texels_of_a_gradient(filter: LobeEnvironment3D.Filter, _test_parameter
 				else:
 					worst = maxf(worst, absf(got - slope / weights * linear))
 		assert_float(255.0 * worst).append_failure_message("level %d" % level).is_less(1.0)
+		# What is flat would be exact, too. Gaussians of the level's variance leave this slope, discs,
+		# where they are as wide as a face, somewhat less.
+		var c := Pyramid.LEVEL_VARIANCES[filter]
+		var variance := 4.0 / (SIZE * SIZE) * c * (pow(4.0, level) - 1.0)
+		var left := Kit.mean_cosine(1.0 / variance) if level > 0 else 1.0
+		var share := slope / weights / left
+		assert_float(share).append_failure_message("level %d" % level).is_between(0.75, 1.1)
 
 
 func test_lobes_of_a_gradient(filter: LobeEnvironment3D.Filter, _test_parameters := ROUND) -> void:

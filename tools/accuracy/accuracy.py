@@ -175,8 +175,12 @@ def run(options):
     if not MAPS[cases.SYNTHETIC].exists():
         bright_map.write(MAPS[cases.SYNTHETIC])
     paths = {**MAPS, **{path.stem: path.absolute() for path in options.maps}}
-    parts = (options.only,) if options.only else cases.PARTS
-    planned = (cases.quick if options.quick else cases.full)(parts, [path.stem for path in options.maps])
+    given_maps = [path.stem for path in options.maps]
+    plan = cases.quick if options.quick else cases.full
+    whole = plan(cases.PARTS, given_maps)
+    # Cases that several parts have are measured with what all of them need.
+    wanted = {case.title() for case in plan((options.only,) if options.only else cases.PARTS, given_maps)}
+    planned = [case for case in whole if case.title() in wanted]
     sources = results.source_key(ROOT)
     keys = {name: results.case_key(sources, path) for name, path in paths.items()}
     options.out.mkdir(parents=True, exist_ok=True)
@@ -186,7 +190,9 @@ def run(options):
         print(f"{len(planned) - len(missing)} of {len(planned)} cases are measured already", file=sys.stderr)
     if missing:
         measure(missing, options, paths, keys, kept)
-    entries = [kept.entry(conditions_of(case, options, keys), case.methods) for case in planned]
+    # Of the other parts, what an earlier run has measured.
+    entries = [kept.entry(conditions_of(case, options, keys), case.methods) for case in whole]
+    entries = [entry for entry in entries if entry]
     kept.save(options.renderer, entries)
     results.write_csv(options.out / "results.csv", entries)
     if options.json:

@@ -8,7 +8,8 @@ usage: ./dev accuracy [--quick] [--maps FILE,FILE…] [OPTIONS]
 
 --quick          a few cases at 64 x 64, in two minutes
 --maps F,F…      these maps too (.exr or .hdr), in the part maps
---only PART      maps: eight lobes on every map, widths 0.01 to 0.2
+--only PART      measures one part; what DIR has of the others stays in the report
+                 maps: eight lobes on every map, widths 0.01 to 0.2
                  ratios: error against fetches, ratios of the widths from 1 to 100
                  grid: widths from 0.01 to 0.5, at most 16 fetches against fis40
 --renderer R     mobile (default), gl_compatibility or forward_plus
@@ -24,14 +25,7 @@ Takes about twenty minutes on two cores. The metric is that of ./dev compare.
 USAGE
 }
 
-for argument in "$@"; do
-  case $argument in
-    -h | --help)
-      usage
-      exit 0
-      ;;
-  esac
-done
+help_if_asked "$@"
 
 need_python accuracy
 export PYTHONDONTWRITEBYTECODE=1 LOBELIGHT_CWD=$PWD

@@ -19,14 +19,7 @@ build/mobile-cost/rows.json that were measured with the same sources and compile
 USAGE
 }
 
-for argument in "$@"; do
-  case $argument in
-    -h | --help)
-      usage
-      exit 0
-      ;;
-  esac
-done
+help_if_asked "$@"
 
 need_python ""
 export PYTHONDONTWRITEBYTECODE=1 LOBELIGHT_CWD=$PWD

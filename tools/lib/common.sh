@@ -24,6 +24,19 @@ die() {
   exit 1
 }
 
+# help_if_asked ARGUMENT…: usage() and the end, if one of them asks for help.
+help_if_asked() {
+  local argument
+  for argument in "$@"; do
+    case $argument in
+      -h | --help)
+        usage
+        exit 0
+        ;;
+    esac
+  done
+}
+
 # shellcheck source=tools/lib/steps.sh
 source "$ROOT/tools/lib/steps.sh"
 # shellcheck source=tools/lib/needs.sh

@@ -125,7 +125,7 @@ static var _arrivals := 0
 		_mark_stale()
 ## Texels along the side of the cube map's faces. Automatic is 256, and for panoramas their width,
 ## rounded up to a power of two, at most 512, which takes 17 MB. Half the size takes a quarter of
-## that; what it loses shows where roughness is below 0.15. Other values are rounded to a power of
+## that; what it loses shows in the sharpest reflections. Other values are rounded to a power of
 ## two.
 @export_enum(
 	"Automatic:0", "32:32", "64:64", "128:128", "256:256", "512:512", "1024:1024", "2048:2048"

@@ -67,13 +67,9 @@ var _texture: ImageTexture
 
 ## A table from a result of [LobeBaker]; [code]null[/code], and an error, if it is none.
 static func from_baked(result: Dictionary) -> LobeTable:
-	if result.has("error"):
-		push_error("LobeTable.from_baked: the bake failed: %s" % result["error"])
+	var baked := image_of_baked(result, "LobeTable.from_baked", "alpha")
+	if baked == null:
 		return null
-	for key: String in ["brdf", "alpha", "lobes", "views", "width", "height", "data"]:
-		if not result.has(key):
-			push_error('LobeTable.from_baked: the result has no "%s".' % key)
-			return null
 	var table := LobeTable.new()
 	table.brdf = result["brdf"]
 	table.alpha = result["alpha"]
@@ -81,26 +77,39 @@ static func from_baked(result: Dictionary) -> LobeTable:
 	table.views = Vector2i(result["views"])
 	table.method = result.get("method", "")
 	table.seed = result.get("seed", 0)
-	var width: int = result["width"]
-	var height: int = result["height"]
-	var data: PackedByteArray = result["data"]
-	if width < 1 or height < 1 or data.size() != width * height * 8:
-		push_error(
-			(
-				"LobeTable.from_baked: %d x %d texels of 8 bytes are not %d bytes."
-				% [width, height, data.size()]
-			)
-		)
-		return null
-	table.image = Image.create_from_data(width, height, false, Image.FORMAT_RGBAH, data)
+	table.image = baked
 	# Otherwise random: equal tables are to be saved as equal bytes.
 	table.resource_scene_unique_id = "table"
-	table.image.resource_scene_unique_id = "lobes"
 	var problem := table.get_problem()
 	if problem:
 		push_error("LobeTable.from_baked: " + problem)
 		return null
 	return table
+
+
+## The image of a result of [LobeBaker], a table's or, with [param width_key] "widths", a set's;
+## [code]null[/code], and an error in the name of [param caller], if the result has none or lacks
+## what goes with it.
+static func image_of_baked(result: Dictionary, caller: String, width_key: String) -> Image:
+	if result.has("error"):
+		push_error("%s: the bake failed: %s" % [caller, result["error"]])
+		return null
+	for key: String in ["brdf", width_key, "lobes", "views", "width", "height", "data"]:
+		if not result.has(key):
+			push_error('%s: the result has no "%s".' % [caller, key])
+			return null
+	var width: int = result["width"]
+	var height: int = result["height"]
+	var data: PackedByteArray = result["data"]
+	if width < 1 or height < 1 or data.size() != width * height * 8:
+		push_error(
+			"%s: %d x %d texels of 8 bytes are not %d bytes." % [caller, width, height, data.size()]
+		)
+		return null
+	var baked := Image.create_from_data(width, height, false, Image.FORMAT_RGBAH, data)
+	# Otherwise random: equal results are to be saved as equal bytes.
+	baked.resource_scene_unique_id = "lobes"
+	return baked
 
 
 ## A table of one lobe of weight 1 about the mirror direction, as wide as the lobe of a mirror that

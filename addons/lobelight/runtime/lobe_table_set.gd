@@ -64,34 +64,18 @@ var _is_checked := false
 
 ## A set from a result of [LobeBaker]; [code]null[/code], and an error, if it is none.
 static func from_baked(result: Dictionary) -> LobeTableSet:
-	if result.has("error"):
-		push_error("LobeTableSet.from_baked: the bake failed: %s" % result["error"])
+	var baked := LobeTable.image_of_baked(result, "LobeTableSet.from_baked", "widths")
+	if baked == null:
 		return null
-	for key: String in ["brdf", "widths", "lobes", "views", "width", "height", "data"]:
-		if not result.has(key):
-			push_error('LobeTableSet.from_baked: the result has no "%s".' % key)
-			return null
 	var tables := LobeTableSet.new()
 	tables.brdf = result["brdf"]
 	tables.widths = PackedFloat64Array(result["widths"] as Array)
 	tables.lobe_count = result["lobes"]
 	tables.views = Vector2i(result["views"])
 	tables.seed = result.get("seed", 0)
-	var width: int = result["width"]
-	var height: int = result["height"]
-	var data: PackedByteArray = result["data"]
-	if width < 1 or height < 1 or data.size() != width * height * 8:
-		push_error(
-			(
-				"LobeTableSet.from_baked: %d x %d texels of 8 bytes are not %d bytes."
-				% [width, height, data.size()]
-			)
-		)
-		return null
-	tables.image = Image.create_from_data(width, height, false, Image.FORMAT_RGBAH, data)
+	tables.image = baked
 	# Otherwise random: equal sets are to be saved as equal bytes.
 	tables.resource_scene_unique_id = "set"
-	tables.image.resource_scene_unique_id = "lobes"
 	var problem := tables.get_problem()
 	if problem:
 		push_error("LobeTableSet.from_baked: " + problem)

@@ -69,9 +69,9 @@ static func is_round(filter: Filter) -> bool:
 	return filter == Filter.GAUSSIAN or filter == Filter.DISC
 
 
-## The size chosen for a panorama where none is asked for: its width up to a power of two. Four
-## texels for one of the panorama, so that the sharpest lobes, no wider than these, are looked up
-## between blurred levels.
+## The size chosen for a panorama where none is asked for: its width up to a power of two. That is
+## four texels along one of the panorama's, so that the sharpest lobes, no wider than these, are
+## looked up between blurred levels.
 static func automatic_size(panorama: Texture2D) -> int:
 	var wanted := nearest_po2(panorama.get_width())
 	return clampi(wanted, MIN_SIZE, MAX_AUTOMATIC_SIZE)

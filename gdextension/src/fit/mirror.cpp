@@ -38,14 +38,18 @@ Mirror match_images(const Mixture& mixture, int axis) {
 
 void symmetrise(Mixture& mixture, const std::vector<Mirror>& mirrors) {
   for (const Mirror& mirror : mirrors) {
-    const Mixture before = mixture;
     for (std::size_t k = 0; k < mixture.size(); ++k) {
-      const Lobe& other = before[static_cast<std::size_t>(mirror.image[k])];
+      const auto image = static_cast<std::size_t>(mirror.image[k]);
+      if (image < k) continue;  // done with it
       Lobe& own = mixture[k];
-      own.weight = 0.5 * (own.weight + other.weight);
-      own.gaussian.kappa = 0.5 * (own.gaussian.kappa + other.gaussian.kappa);
-      own.gaussian.mean =
-          glm::normalize(own.gaussian.mean + reflected(other.gaussian.mean, mirror.axis));
+      Lobe& other = mixture[image];
+      const glm::dvec3 mean = own.gaussian.mean;
+      own.weight = other.weight = 0.5 * (own.weight + other.weight);
+      own.gaussian.kappa = other.gaussian.kappa = 0.5 * (own.gaussian.kappa + other.gaussian.kappa);
+      own.gaussian.mean = glm::normalize(mean + reflected(other.gaussian.mean, mirror.axis));
+      if (image != k) {
+        other.gaussian.mean = glm::normalize(other.gaussian.mean + reflected(mean, mirror.axis));
+      }
     }
   }
 }

@@ -72,13 +72,15 @@ Mixture RefinementObjective::mixture(const std::vector<double>& x) const {
 
 void RefinementObjective::make_symmetric(std::vector<double>& x) const {
   for (const Mirror& mirror : options_.mirrors) {
-    const std::vector<double> before = x;
     for (std::size_t k = 0; k < start_.size(); ++k) {
       const auto other = static_cast<std::size_t>(mirror.image[k]);
+      if (other < k) continue;  // done with it
       for (std::size_t i = 0; i < 5; ++i) {
-        const double image = before[5 * other + i];
-        const bool turns = i == static_cast<std::size_t>(mirror.axis);
-        x[5 * k + i] = 0.5 * (before[5 * k + i] + (turns ? -image : image));
+        const double sign = i == static_cast<std::size_t>(mirror.axis) ? -1.0 : 1.0;
+        const double mean = 0.5 * (x[5 * k + i] + sign * x[5 * other + i]);
+        x[5 * k + i] = mean;
+        // Of a lobe that is its own image, what turns is 0 by now.
+        x[5 * other + i] = sign * mean;
       }
     }
   }
