@@ -1,14 +1,16 @@
 extends SceneTree
-## Many comparisons in one run of the engine, for `./dev accuracy`.
+## Many comparisons in one run of the engine, for `./dev accuracy` and `./dev report`.
 ##
 ## `--list FILE` is JSON: {"env", "brdf", "alpha", "methods", "size", "samples", "timing_rounds",
-## "out"} for each [Comparison], paths absolute. Those of one map follow one another best, since a
-## map's pyramid is kept while the next comparison needs it; tables are kept throughout. After each,
-## a line "compared INDEX" goes to standard output.
+## "out"} for each [Comparison], paths absolute, and where wanted "tolerant" and "stage", the
+## properties of [ComparisonStage] that differ from the usual: {"filter", "pyramid_size",
+## "table_views", "toral_coverage", "toral_views", "fis_bias"}. Those of one map and stage follow
+## one another best, since a map's pyramid is kept while the next comparison needs it; tables are
+## kept throughout. After each, a line "compared INDEX" goes to standard output.
 
 var _arguments := CommandLine.new("accuracy", ["list"])
 var _stage: ComparisonStage
-var _environment_path := ""
+var _stage_key := ""
 var _tables: Dictionary[String, LobeTable] = {}
 
 
@@ -48,20 +50,28 @@ func _compare(entry: Dictionary) -> void:
 	comparison.samples = int(entry["samples"] as float)
 	comparison.timing_rounds = int(entry["timing_rounds"] as float)
 	comparison.out = entry["out"]
-	for method in comparison.names:
-		_arguments.fail_if(CompareMethods.error(method))
-	_light(comparison.environment_path)
+	comparison.tolerant = entry.get("tolerant", false)
+	if not comparison.tolerant:
+		for method in comparison.names:
+			_arguments.fail_if(CompareMethods.error(method))
+	_light(comparison.environment_path, entry.get("stage", {}))
 	comparison.stage = _stage
 	if _arguments.error.is_empty():
 		_arguments.fail_if(await comparison.run())
 
 
-func _light(path: String) -> void:
-	if path == _environment_path:
+func _light(path: String, properties: Dictionary) -> void:
+	var key := "%s %s" % [path, properties]
+	if key == _stage_key:
 		return
 	var panorama := Comparison.load_panorama(path)
 	_arguments.fail_if(panorama.get("error", ""))
 	_stage = ComparisonStage.new(self)
 	_stage.panorama = panorama.get("texture")
 	_stage.tables = _tables
-	_environment_path = path
+	for property: String in properties:
+		var value: Variant = properties[property]
+		if value is Array:
+			value = Vector2i(int(value[0] as float), int(value[1] as float))
+		_stage.set(property, value)
+	_stage_key = key

@@ -22,6 +22,12 @@ var timing_rounds := TIMING_ROUNDS
 ## The absolute path of the folder for the files.
 var out: String
 var stage: ComparisonStage
+## Whether a method that cannot be drawn here is left out, its reason in plan.json's "unavailable";
+## otherwise it is an error.
+var tolerant := false
+
+# Why methods were left out, by their names.
+var _unavailable: Dictionary[String, String] = {}
 
 
 ## Draws, measures and writes. Returns one sentence on failure, otherwise empty. To be awaited.
@@ -30,11 +36,16 @@ func run() -> String:
 	for name in names:
 		if name == CompareMethods.REFERENCE:
 			continue
-		var method := CompareMethods.make(name, brdf, alpha)
-		var failure := await method.prepare(stage)
+		var failure := CompareMethods.error(name)
+		if failure.is_empty():
+			var method := CompareMethods.make(name, brdf, alpha)
+			failure = await method.prepare(stage)
+			if failure.is_empty():
+				methods.append(method)
 		if not failure.is_empty():
-			return failure
-		methods.append(method)
+			if not tolerant:
+				return failure
+			_unavailable[name] = failure
 	return await _compare(methods)
 
 
@@ -73,8 +84,12 @@ func _compare(methods: Array[ComparisonMethod]) -> String:
 			"size": size,
 			"renderer": RenderingServer.get_current_rendering_method(),
 			"driver": RenderingServer.get_video_adapter_name(),
+			"driver_type": RenderingServer.get_video_adapter_type(),
+			"driver_version": RenderingServer.get_video_adapter_api_version(),
+			"engine": Engine.get_version_info()["string"],
 			"reference_samples": reference["samples"],
 			"methods": _entries(methods, times),
+			"unavailable": _unavailable,
 		}
 		failure = AtomicFile.save_json(plan, out.path_join("plan.json"))
 	for name: String in viewports:
@@ -88,6 +103,8 @@ func _entries(
 ) -> Array[Dictionary]:
 	var entries: Array[Dictionary] = []
 	for name in names:
+		if _unavailable.has(name):
+			continue
 		var entry := {"method": name, "fetches": 0, "probes": 0, "table_fetches": 0}
 		for method in methods:
 			if method.name == name:

@@ -17,6 +17,10 @@ var tree: SceneTree
 var panorama: Texture2D
 ## A key of [constant FILTERS]: how the project's own pyramid is made.
 var filter := "disc"
+## Texels along the side of the faces of the pyramids; 0 for what [LobeEnvironment3D] chooses.
+var pyramid_size := 0
+## Of gmm: the views of its table, elevations and azimuths; 0 for what [LobeBaker] chooses.
+var table_views := Vector2i.ZERO
 ## Tables that were baked, by their recipes; several comparisons can share them.
 var tables: Dictionary[String, LobeTable] = {}
 ## Of toral: the share c of a lobe that the texels of its level cover (the thesis' alpha). 0.47, or
@@ -49,11 +53,18 @@ func light_materials() -> String:
 	if _environment == null:
 		_environment = LobeEnvironment3D.new()
 		_environment.filter = FILTERS[filter]
+		_environment.size = pyramid_size
 		_environment.panorama = panorama
 		tree.root.add_child(_environment)
 	if _environment.get_cubemap() == null and not await _environment.rebuild():
 		return _environment.get_rebuild_error()
 	return ""
+
+
+## Texels along the side of the faces that light materials; 0 before [method light_materials].
+func face_size() -> int:
+	var cubemap := _environment.get_cubemap() if _environment != null else null
+	return cubemap.get_width() if cubemap != null else 0
 
 
 ## The panorama's pyramid as materials of other kinds need it, made as [LobeEnvironment3D] makes
@@ -63,6 +74,7 @@ func light(used_filter: String) -> EnvironmentLight:
 		return _lights[used_filter]
 	var environment := LobeEnvironment3D.new()
 	environment.filter = FILTERS[used_filter]
+	environment.size = pyramid_size
 	environment.panorama = panorama
 	var made: EnvironmentLight = null
 	if await environment.rebuild():

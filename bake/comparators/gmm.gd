@@ -5,6 +5,9 @@ var lobes: int
 var refine: bool
 var table: LobeTable
 
+var _filter := ""
+var _face_size := 0
+
 
 static func make(count: int, is_refined: bool) -> ComparisonMethod:
 	var method := new()
@@ -15,6 +18,9 @@ static func make(count: int, is_refined: bool) -> ComparisonMethod:
 
 func prepare(stage: ComparisonStage) -> String:
 	var recipe := {"brdf": brdf, "alpha": Array(alpha), "lobes": lobes, "refine": refine}
+	if stage.table_views != Vector2i.ZERO:
+		recipe["views"] = [stage.table_views.x, stage.table_views.y]
+	_filter = stage.filter
 	var key := str(recipe)
 	if not stage.tables.has(key):
 		var result := await NativeLibrary.run(
@@ -24,7 +30,9 @@ func prepare(stage: ComparisonStage) -> String:
 			return result["error"]
 		stage.tables[key] = LobeTable.from_baked(result)
 	table = stage.tables[key]
-	return await stage.light_materials()
+	var failure := await stage.light_materials()
+	_face_size = stage.face_size()
+	return failure
 
 
 func make_sphere() -> MeshInstance3D:
@@ -36,3 +44,12 @@ func make_sphere() -> MeshInstance3D:
 func cost() -> Dictionary:
 	var table_fetches := 2 * lobes if table.has_second_texels() else lobes
 	return {"fetches": lobes, "probes": lobes, "table_fetches": table_fetches}
+
+
+func settings() -> Dictionary:
+	return {
+		"views": [table.views.x, table.views.y],
+		"table_bytes": table.image.get_data().size(),
+		"pyramid": _filter,
+		"face_size": _face_size,
+	}
