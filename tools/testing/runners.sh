@@ -82,6 +82,13 @@ run_commands() {
   judge commands
 }
 
+# The package and what is exported from a project that it was unpacked into.
+run_export() {
+  need_import
+  run_logged export-package in_time bash "$ROOT/tests/commands/package_test.sh"
+  judge export-package
+}
+
 # What ./dev compare finds, against the project's bounds.
 run_accuracy() {
   need_import

@@ -6,16 +6,20 @@ extends EditorPlugin
 ## baker by the native library; what is added here are conversions of materials, and a warning about
 ## meshes that lack tangents.
 
+const ExportPlugin := preload("export/export_plugin.gd")
 const MaterialConversionPlugin := preload("material_conversion_plugin.gd")
 const SceneConversionMenu := preload("scene_conversion_menu.gd")
 const TangentWarning := preload("tangent_warning.gd")
 
+var _export_plugin: ExportPlugin
 var _conversions: Array[MaterialConversionPlugin] = []
 var _scene_menu: SceneConversionMenu
 var _tangent_warning: TangentWarning
 
 
 func _enter_tree() -> void:
+	_export_plugin = ExportPlugin.new()
+	add_export_plugin(_export_plugin)
 	for to_lobes: bool in [true, false]:
 		var conversion := MaterialConversionPlugin.new(to_lobes)
 		_conversions.append(conversion)
@@ -27,6 +31,8 @@ func _enter_tree() -> void:
 
 
 func _exit_tree() -> void:
+	remove_export_plugin(_export_plugin)
+	_export_plugin = null
 	for conversion in _conversions:
 		remove_resource_conversion_plugin(conversion)
 	_conversions.clear()
