@@ -60,7 +60,7 @@ only_the_addon() {
 }
 
 unpack() {
-  cp -r "$ROOT/tests/commands/new_project" "$project" \
+  cp -r "$ROOT/tests/commands/new_project" "$project" && mv "$project/project.template" "$project/project.godot" \
     && "$PYTHON" -c 'import sys, zipfile; zipfile.ZipFile(sys.argv[1]).extractall(sys.argv[2])' "$package" "$project"
 }
 
