@@ -2,15 +2,29 @@ class_name CompareMethods
 extends RefCounted
 ## The methods that `./dev compare` knows by name.
 
+const AllFreq := preload("comparators/allfreq.gd")
+const Asg := preload("comparators/asg.gd")
+const ClosedForm := preload("comparators/closed_form.gd")
 const Fis := preload("comparators/fis.gd")
 const Gmm := preload("comparators/gmm.gd")
 const Toral := preload("comparators/toral.gd")
 
 const REFERENCE := "reference"
 ## Drawn, besides `gmm<lobes>`, `gmm<lobes>r` and the reference.
-const RIVALS: PackedStringArray = ["fis8", "fis16", "fis40", "fis40g", "toral8", "toral16"]
+const RIVALS: PackedStringArray = [
+	"fis8",
+	"fis16",
+	"fis40",
+	"fis40g",
+	"toral8",
+	"toral16",
+	"allfreq1",
+	"allfreq8",
+	"asg",
+	"closed8",
+]
 ## Named in the contract, built later.
-const PLANNED: PackedStringArray = ["allfreq1", "allfreq8", "asg", "majoraxis8", "closed8", "stock"]
+const PLANNED: PackedStringArray = ["majoraxis8", "stock"]
 
 
 ## One sentence where a name cannot be drawn, otherwise empty.
@@ -34,6 +48,12 @@ static func make(method: String, brdf: String, alpha: PackedFloat64Array) -> Com
 		made = Fis.make(_number_after("fis", method.trim_suffix("g")), method.ends_with("g"))
 	elif method.begins_with("toral"):
 		made = Toral.make(_number_after("toral", method))
+	elif method.begins_with("allfreq"):
+		made = AllFreq.make(_number_after("allfreq", method))
+	elif method == "asg":
+		made = Asg.new()
+	elif method == "closed8":
+		made = ClosedForm.new()
 	if made != null:
 		made.name = method
 		made.brdf = brdf

@@ -1,11 +1,18 @@
 extends RefCounted
 ## The sphere of [SphereImpostor] under another method's shader.
 
+const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
+
 
 ## A quad whose material is the shader include [param path] of this folder, which has a function
-## [param function] like lobelight_specular, after the lines [param defines].
+## [param function] like lobelight_specular, after the lines [param defines]. With [param light] it
+## has what environment.gdshaderinc asks for.
 static func make(
-	path: String, function: String, defines: PackedStringArray, parameters: Dictionary
+	path: String,
+	function: String,
+	defines: PackedStringArray,
+	parameters: Dictionary,
+	light: EnvironmentLight = null
 ) -> MeshInstance3D:
 	var folder := SphereImpostor.FRAGMENT_PATH.get_base_dir()
 	var code := "shader_type spatial;\nrender_mode ambient_light_disabled;\n"
@@ -22,4 +29,6 @@ static func make(
 	material.set_shader_parameter(&"lobelight_environment_energy", 1.0)
 	for parameter: StringName in parameters:
 		material.set_shader_parameter(parameter, parameters[parameter])
+	if light != null:
+		light.apply(material.get_rid())
 	return SphereImpostor.make_quad(material)

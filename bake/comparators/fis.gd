@@ -5,7 +5,7 @@ extends ComparisonMethod
 
 const ComparisonSphere := preload("comparison_sphere.gd")
 const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
-const BRDFS: PackedStringArray = ["ward", "ward_bounded", "ggx"]
+const Microfacet := preload("microfacet.gd")
 
 var samples: int
 ## Whether on the project's own pyramid.
@@ -25,8 +25,9 @@ static func make(count: int, own_pyramid: bool) -> ComparisonMethod:
 
 
 func prepare(stage: ComparisonStage) -> String:
-	if brdf not in BRDFS:
-		return "method %s draws %s, not %s." % [name, ", ".join(BRDFS), brdf]
+	var problem := Microfacet.find_problem(self)
+	if not problem.is_empty():
+		return problem
 	_filter = stage.filter if on_own_pyramid else "box"
 	_light = await stage.light(_filter)
 	if _light == null:
@@ -42,9 +43,8 @@ func make_sphere() -> MeshInstance3D:
 ## The mean over [param count] of the samples, from the one with the index [param first]. Parts make
 ## up pictures of more samples than one shader can have: see [method constants].
 func make_part(first: int, count: int) -> MeshInstance3D:
-	var defines: PackedStringArray = ["FIS_SAMPLES %d" % count, "FIS_" + brdf.to_upper()]
-	if alpha[0] == alpha[1]:
-		defines.append("FIS_ISOTROPIC")
+	var defines := Microfacet.get_defines(self)
+	defines.append("FIS_SAMPLES %d" % count)
 	if _light.is_even:
 		defines.append("FIS_ROUND_LEVELS")
 	return (

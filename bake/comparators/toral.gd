@@ -57,7 +57,7 @@ func use(fitted: LobeTable, stage: ComparisonStage) -> String:
 func make_sphere() -> MeshInstance3D:
 	var defines: PackedStringArray = ["TORAL_LOBES %d" % lobes]
 	if table.is_isotropic():
-		defines.append("TORAL_ISOTROPIC")
+		defines.append("MICROFACET_ISOTROPIC")
 	var last := Vector2(table.views - Vector2i.ONE)
 	var per_radian := Vector2(1.0 / LobeTable.MAX_VIEW_ANGLE, last.y / (0.5 * PI))
 	# Eq. 2.9 to 2.12 without what depends on the lobe; the map has w = h = side.

@@ -113,7 +113,7 @@ compare_refuses "an empty file" "empty.exr" "${good_compare[@]}" --methods gmm4 
 compare_refuses "a folder for an environment" "$work" "${good_compare[@]}" --methods gmm4 --env "$work"
 compare_refuses "an unknown method" "magic8" "${good_compare[@]}" --methods magic8 --env "$environment"
 compare_refuses "a method that comes later" "not available yet" \
-  "${good_compare[@]}" --methods gmm4,asg --env "$environment"
+  "${good_compare[@]}" --methods gmm4,stock --env "$environment"
 compare_refuses "a method without lobes" "gmm0" "${good_compare[@]}" --methods gmm0 --env "$environment"
 compare_refuses "a method with a thousand lobes" "1000" \
   "${good_compare[@]}" --methods gmm1000 --env "$environment"

@@ -2,19 +2,15 @@ extends GdUnitTestSuite
 ## The methods that `./dev compare` sets beside this project's own do what their papers say.
 
 const Kit := preload("support/render_kit.gd")
+const ComparatorKit := preload("support/comparator_kit.gd")
 const Oracle := preload("support/brdf_oracle.gd")
 const Fis := preload("res://bake/comparators/fis.gd")
 const Toral := preload("res://bake/comparators/toral.gd")
 const DualParaboloidMap := preload("res://bake/comparators/dual_paraboloid_map.gd")
 
-const SIDE := 32
+const SIDE := ComparatorKit.SIDE
 const GRADIENT := Vector3(0.5, 0.3, -0.4)
-const NORMALS: Array[Vector3] = [
-	Vector3(0.05, 0.03, 1.0),
-	Vector3(0.6, 0.3, 1.0),
-	Vector3(-0.5, 0.9, 1.0),
-	Vector3(0.4, -1.9, 1.0)
-]
+const NORMALS := ComparatorKit.NORMALS
 const MATERIALS := [
 	["ward", 0.2, 0.2],
 	["ward", 0.1, 0.4],
@@ -36,7 +32,7 @@ var _stage: ComparisonStage
 
 func before() -> void:
 	_lamps = create_temp_dir("comparators").path_join("lamps.exr")
-	_save_lamps(_lamps)
+	assert_str(ComparatorKit.save_lamps(_lamps)).is_empty()
 
 
 func after() -> void:
@@ -55,7 +51,7 @@ func after_test() -> void:
 
 
 func test_known_and_unknown_names() -> void:
-	for name: String in ["gmm8", "fis8", "fis16", "fis40", "fis40g", "toral8", "toral16"]:
+	for name: String in CompareMethods.RIVALS + PackedStringArray(["gmm8"]):
 		assert_str(CompareMethods.error(name)).is_empty()
 		var method := CompareMethods.make(name, "ward", PackedFloat64Array([0.1, 0.1]))
 		assert_str(method.name).is_equal(name)
@@ -63,13 +59,15 @@ func test_known_and_unknown_names() -> void:
 		if name == "gmm8":
 			continue
 		var number := name.lstrip("abcdefghijklmnopqrstuvwxyz").to_int()
+		if name == "asg":
+			number = 8
 		assert_int(method.cost()["fetches"]).is_equal(number)
 		assert_int(method.cost()["probes"]).is_equal(number)
 		assert_int(method.cost()["table_fetches"]).is_equal(
-			0 if name.begins_with("fis") else number
+			number if name.begins_with("toral") else 0
 		)
 	for name: String in [
-		"fis", "fis9", "fis8g", "toral", "toral4", "gmm", "gmm-1", "GMM8", "fis40gg"
+		"fis", "fis9", "fis8g", "toral4", "gmm", "gmm-1", "GMM8", "fis40gg", "allfreq", "asg8"
 	]:
 		assert_str(CompareMethods.error(name)).contains("is unknown")
 	for name: String in CompareMethods.PLANNED:
@@ -91,14 +89,14 @@ func test_fis_weights_and_levels(
 ) -> void:
 	# In a cube map whose levels hold 1 + their number, a sample shows its level.
 	var method := _fis(brdf, x, y, 8)
-	_stage._lights["box"] = _level_light(32, "box")
+	_stage._lights["box"] = ComparatorKit.level_light(32, "box")
 	assert_str(await method.prepare(_stage)).is_empty()
 	_view.add_child(method.make_sphere())
 	var image: Image = await _view.capture()
 	for normal in NORMALS:
-		var pixel := _pixel_of(normal)
+		var pixel := ComparatorKit.pixel_of(normal)
 		var exact := Kit.sphere_normal(pixel.x, pixel.y, SIDE)
-		var frame := _frame(exact, x == y)
+		var frame := ComparatorKit.frame(exact, x == y)
 		var o := frame.transposed() * Vector3.BACK
 		var expected := 0.0
 		var lowest := INF
@@ -132,10 +130,10 @@ func test_fis_converges_to_the_reference(
 	)
 	assert_str(reference.get("error", "")).is_empty()
 	var expected: PackedFloat32Array = reference["pixels"]
-	_set_panorama(_lamps)
-	var few := _error(await _drawn(_fis(brdf, x, y, 8)), expected)
-	var more := _error(await _drawn(_fis(brdf, x, y, 40)), expected)
-	var most := _error(await _drawn_in_parts(_fis(brdf, x, y, MANY)), expected)
+	_stage.panorama = ComparatorKit.load_panorama(_lamps)
+	var few := ComparatorKit.error(await _drawn(_fis(brdf, x, y, 8)), expected)
+	var more := ComparatorKit.error(await _drawn(_fis(brdf, x, y, 40)), expected)
+	var most := ComparatorKit.error(await _drawn_in_parts(_fis(brdf, x, y, MANY)), expected)
 	var figures := "%f, %f, %f" % [few, more, most]
 	assert_float(more).append_failure_message(figures).is_less(0.4 * few)
 	assert_float(most).append_failure_message(figures).is_less(0.005)
@@ -150,7 +148,7 @@ func test_white_furnace_of_fis(
 		method.on_own_pyramid = own_pyramid
 		var pixels := await _drawn(method)
 		for normal in NORMALS:
-			var pixel := _pixel_of(normal)
+			var pixel := ComparatorKit.pixel_of(normal)
 			var frame := Kit.sphere_frame(Kit.sphere_normal(pixel.x, pixel.y, SIDE))
 			var view := frame.transposed() * Vector3.BACK
 			var albedo := LobeBaker.directional_albedo(brdf, Vector2(x, y), view)
@@ -163,7 +161,7 @@ func test_white_furnace_of_toral() -> void:
 	var method := _toral(Kit.make_odd_table(8, Vector2i(9, 1), Vector2(0.2, 0.2)))
 	var pixels := await _drawn_with_table(method)
 	for normal in NORMALS:
-		var pixel := _pixel_of(normal)
+		var pixel := ComparatorKit.pixel_of(normal)
 		var exact := Kit.sphere_normal(pixel.x, pixel.y, SIDE)
 		var nearest := roundi(method.table.get_column(acos(exact.z)))
 		var albedo := method.table.directional_albedo(method.table.get_view(nearest, 0))
@@ -198,9 +196,9 @@ func test_toral_takes_the_lobes_of_the_nearest_view() -> void:
 	]:
 		var pixels := await _drawn_with_table(_toral(table))
 		for normal: Vector3 in NORMALS + [Vector3(-0.7, -0.8, 1.0)] as Array[Vector3]:
-			var pixel := _pixel_of(normal)
+			var pixel := ComparatorKit.pixel_of(normal)
 			var exact := Kit.sphere_normal(pixel.x, pixel.y, SIDE)
-			var frame := _frame(exact, table.is_isotropic())
+			var frame := ComparatorKit.frame(exact, table.is_isotropic())
 			var o := frame.transposed() * Vector3.BACK
 			var fold := Vector3(signf(o.x), signf(o.y), 1.0)
 			if table.is_isotropic():
@@ -220,14 +218,14 @@ func test_toral_levels() -> void:
 	var map := DualParaboloidMap.new()
 	map.side = 64
 	map.texture = Texture2DArray.new()
-	map.texture.create_from_images([_level_image(64), _level_image(64)])
+	map.texture.create_from_images([ComparatorKit.level_image(64), ComparatorKit.level_image(64)])
 	_stage._map = map
 	for coverage: float in [0.47, 0.9]:
 		_stage.toral_coverage = coverage
 		var pixels := await _drawn_with_table(_toral(table))
 		for normal in NORMALS:
-			var pixel := _pixel_of(normal)
-			var frame := _frame(Kit.sphere_normal(pixel.x, pixel.y, SIDE), true)
+			var pixel := ComparatorKit.pixel_of(normal)
+			var frame := ComparatorKit.frame(Kit.sphere_normal(pixel.x, pixel.y, SIDE), true)
 			var o := frame.transposed() * Vector3.BACK
 			var expected := 0.0
 			for lobe in table.lobes_at(_nearest_view(table, o)):
@@ -318,79 +316,11 @@ func _drawn_in_parts(method: Fis) -> PackedFloat32Array:
 	return sums
 
 
-# The root of the mean squared difference over that of the mean square, where the sphere is seen at
-# less than 80 degrees.
-func _error(pixels: PackedFloat32Array, expected: PackedFloat32Array) -> float:
-	var difference := 0.0
-	var square := 0.0
-	for y in SIDE:
-		for x in SIDE:
-			if Kit.sphere_normal(x, y, SIDE).z < 0.17:
-				continue
-			for channel in 3:
-				var i := 3 * (y * SIDE + x) + channel
-				difference += pow(pixels[i] - expected[i], 2.0)
-				square += pow(expected[i], 2.0)
-	return sqrt(difference / square)
-
-
-# A smooth panorama with bright and dark parts.
-func _save_lamps(file: String) -> void:
-	var height := 32
-	var pixels := PackedFloat32Array()
-	for y in height:
-		for x in 2 * height:
-			var d := Kit.panorama_direction((x + 0.5) / (2.0 * height), (y + 0.5) / height)
-			var lamp := 20.0 * exp(12.0 * (d.dot(Vector3(-0.48, 0.64, 0.6)) - 1.0))
-			pixels.append_array([0.5 + lamp, 0.4 + 0.3 * d.y + lamp, 0.6 - 0.4 * d.x + 0.5 * lamp])
-	assert_str(NativeLibrary.save_exr(file, 2 * height, height, pixels)).is_empty()
-
-
-func _set_panorama(file: String) -> void:
-	var panorama := NativeLibrary.load_panorama(file)
-	var pixels: PackedFloat32Array = panorama["pixels"]
-	var size := Vector2i(panorama["width"], panorama["height"])
-	var bytes := pixels.to_byte_array()
-	_stage.panorama = ImageTexture.create_from_image(
-		Image.create_from_data(size.x, size.y, false, Image.FORMAT_RGBF, bytes)
-	)
-
-
-# Mip level l holds 1 + l.
-func _level_image(size: int) -> Image:
-	var data := PackedByteArray()
-	var level := 0
-	while size >> level > 0:
-		var image := Image.create_empty(size >> level, size >> level, false, Image.FORMAT_RGBAH)
-		image.fill(Color(1.0 + level, 1.0 + level, 1.0 + level))
-		data.append_array(image.get_data())
-		level += 1
-	return Image.create_from_data(size, size, true, Image.FORMAT_RGBAH, data)
-
-
-func _level_light(size: int, filter: String) -> ComparisonStage.EnvironmentLight:
-	var light := ComparisonStage.EnvironmentLight.new()
-	light.cubemap = Cubemap.new()
-	var face := _level_image(size)
-	light.cubemap.create_from_images([face, face, face, face, face, face])
-	light.size = size
-	light.level_variance = ComparisonStage.Pyramid.LEVEL_VARIANCES[ComparisonStage.FILTERS[filter]]
-	return light
-
-
 func _level_of(image: Image, level: int) -> Image:
 	var size := image.get_width() >> level
 	var offset := image.get_mipmap_offset(level)
 	var data := image.get_data().slice(offset, offset + size * size * 8)
 	return Image.create_from_data(size, size, false, Image.FORMAT_RGBAH, data)
-
-
-# The frame that the shaders use: isotropic materials have the view in the x-z plane.
-func _frame(normal: Vector3, isotropic: bool) -> Basis:
-	if not isotropic:
-		return Kit.sphere_frame(normal)
-	var across := (Vector3.BACK - normal * normal.z).normalized()
-	return Basis(across, normal.cross(across), normal)
 
 
 # `o` in the first quadrant.
@@ -408,11 +338,6 @@ func _nearest_view(table: LobeTable, o: Vector3) -> Vector3:
 				least = away
 				best = view
 	return best
-
-
-func _pixel_of(normal: Vector3) -> Vector2i:
-	var p := normal.normalized()
-	return Vector2i(floori((p.x + 1.0) * 0.5 * SIDE), floori((1.0 - p.y) * 0.5 * SIDE))
 
 
 func _assert_close(got: float, expected: float, tolerance: float, what: String) -> void:

@@ -9,10 +9,13 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
 --methods       gmm<lobes> (gmm4, gmm8, gmm16 …); gmm<lobes>r: with refined lobes
                 fis8 fis16 fis40: filtered importance sampling on 2x2 means; fis40g: on the pyramid of gmm
                 toral8 toral16: the thesis as written
+                allfreq1 allfreq8: spherical Gaussians for the normals' density, warped (Wang et al. 2009)
+                asg: one anisotropic spherical Gaussian (Xu et al. 2013), drawn as eight round ones
+                closed8: eight lobes in closed form, without a table
                 reference: with itself
 --size N        pixels along the side (default 256)
 --renderer R    mobile (default), gl_compatibility or forward_plus
---filter F      of the pyramid of gmm and fis40g: disc (default), gaussian, binomial or box
+--filter F      of the pyramid of gmm, fis40g, allfreq, asg and closed8: disc (default), gaussian, binomial or box
 --samples N     of the reference, a pixel
 --timing-rounds N   GPU times of every method, in turns (default 15); 0 measures none
 --coverage C    of toral: the share of a lobe that its texels cover (default 0.47)
