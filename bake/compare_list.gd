@@ -54,7 +54,7 @@ func _compare(entry: Dictionary) -> void:
 	if not comparison.tolerant:
 		for method in comparison.names:
 			_arguments.fail_if(CompareMethods.error(method))
-	_light(comparison.environment_path, entry.get("stage", {}))
+	await _light(comparison.environment_path, entry.get("stage", {}))
 	comparison.stage = _stage
 	if _arguments.error.is_empty():
 		_arguments.fail_if(await comparison.run())
@@ -64,6 +64,10 @@ func _light(path: String, properties: Dictionary) -> void:
 	var key := "%s %s" % [path, properties]
 	if key == _stage_key:
 		return
+	_stage = null
+	# This may be called at the end of the comparison before, which still holds its stage; two lights
+	# cannot share the world.
+	await process_frame
 	var panorama := Comparison.load_panorama(path)
 	_arguments.fail_if(panorama.get("error", ""))
 	_stage = ComparisonStage.new(self)

@@ -47,6 +47,20 @@ func _notification(what: int) -> void:
 		_environment.free()
 
 
+## The table of a recipe of [LobeBaker], baked for the method [param title] unless [member tables]
+## has it: {"table"} or {"error"}. To be awaited.
+func bake(recipe: Dictionary, title: String) -> Dictionary:
+	var key := str(recipe)
+	if not tables.has(key):
+		var result := await NativeLibrary.run(
+			NativeLibrary.create(&"LobeBaker"), recipe, "baking %s" % title, tree
+		)
+		if result.has("error"):
+			return result
+		tables[key] = LobeTable.from_baked(result)
+	return {"table": tables[key]}
+
+
 ## Lights every [LobeMaterial3D] by the panorama. Returns one sentence on failure, otherwise empty.
 ## To be awaited.
 func light_materials() -> String:

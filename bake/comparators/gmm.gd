@@ -21,15 +21,10 @@ func prepare(stage: ComparisonStage) -> String:
 	if stage.table_views != Vector2i.ZERO:
 		recipe["views"] = [stage.table_views.x, stage.table_views.y]
 	_filter = stage.filter
-	var key := str(recipe)
-	if not stage.tables.has(key):
-		var result := await NativeLibrary.run(
-			NativeLibrary.create(&"LobeBaker"), recipe, "baking %s" % name, stage.tree
-		)
-		if result.has("error"):
-			return result["error"]
-		stage.tables[key] = LobeTable.from_baked(result)
-	table = stage.tables[key]
+	var baked := await stage.bake(recipe, name)
+	if baked.has("error"):
+		return baked["error"]
+	table = baked["table"]
 	var failure := await stage.light_materials()
 	_face_size = stage.face_size()
 	return failure

@@ -37,12 +37,10 @@ func prepare(stage: ComparisonStage) -> String:
 		"method": "independent",
 		"views": [views.x, views.y],
 	}
-	var result := await NativeLibrary.run(
-		NativeLibrary.create(&"LobeBaker"), recipe, "baking %s" % name, stage.tree
-	)
-	if result.has("error"):
-		return result["error"]
-	return await use(LobeTable.from_baked(result), stage)
+	var baked := await stage.bake(recipe, name)
+	if baked.has("error"):
+		return baked["error"]
+	return await use(baked["table"], stage)
 
 
 ## As [method prepare], with lobes that are there already.

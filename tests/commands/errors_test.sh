@@ -143,6 +143,10 @@ refuses "stability, JSON in a missing folder" "missing/cases.json" stability --q
 refuses "accuracy, a map that is not there" "no such map" accuracy --quick --maps absent.exr
 refuses "accuracy, a size out of range" "--size" accuracy --size 4
 refuses "accuracy, an unknown option" "--frames" accuracy --frames 3
+refuses "report, an unknown renderer" "vulkan9" report --renderers mobile,vulkan9
+refuses "report, a map that is not there" "no such map" report --quick --maps absent.exr
+refuses "report, JSON in a missing folder" "missing/report.json" report --json missing/report.json
+DISPLAY="" WAYLAND_DISPLAY="" refuses "report, a GPU without a display" "DISPLAY" report --device
 refuses "mobile-cost, an unknown GPU" "no GPU 'adreno1'" mobile-cost --gpus adreno1
 refuses "mobile-cost, an unknown variant" "no variant 'gmm9'" mobile-cost --variants gmm9
 refuses "mobile-cost, JSON in a missing folder" "missing/rows.json" mobile-cost --json missing/rows.json
@@ -151,7 +155,7 @@ refuses "package, every desktop" "not available yet" package --all
 refuses "package, an output with the wrong ending" "x.tar" package --out x.tar
 refuses "package, an output in a missing folder" "missing/x.zip" package --out missing/x.zip
 refuses "an unknown command" "no-such-command" no-such-command
-refuses "a command that comes later" "not available yet" report
+refuses "a command that comes later" "not available yet" fuzz
 
 echo "commands: $passed passed, $failed failed"
 ((failed == 0))

@@ -5,17 +5,15 @@ One engine draws every case that results.json lacks; each is judged as soon as i
 """
 
 import argparse
-import json
-import os
+import contextlib
 import pathlib
-import signal
-import subprocess
 import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools/compare"))
 
+import batch  # noqa: E402
 import bright_map  # noqa: E402
 import cases  # noqa: E402
 import metrics  # noqa: E402
@@ -34,8 +32,6 @@ RENDERERS = ("mobile", "gl_compatibility", "forward_plus")
 SIZE, QUICK_SIZE = 96, 64
 SAMPLES = 640
 TIMING_ROUNDS = 5
-ENGINE = 'source "$0/tools/lib/common.sh"; godot_rendered "$@"'
-DONE = "compared "
 
 
 class Problem(Exception):
@@ -115,13 +111,6 @@ def judge(case, options, keys, kept):
     return "  ".join(f"{row['method']} {row['psnr']:.1f}" for row in rows)
 
 
-def engine_failure(log):
-    """The engine's own sentence, or where its output is."""
-    lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
-    said = [line for line in lines if line.startswith("accuracy: ")]
-    return said[0].removeprefix("accuracy: ") if said else f"the engine stopped before the last case; its output: {log}"
-
-
 def measure(missing, options, paths, keys, kept):
     """Draws and judges the cases; results.json has each as soon as it is measured."""
     entries = [
@@ -137,37 +126,16 @@ def measure(missing, options, paths, keys, kept):
         }
         for case in missing
     ]
-    work_list, log = WORK / f"list-{os.getpid()}.json", WORK / "engine.log"
-    work_list.write_text(json.dumps(entries), encoding="utf-8")
-    command = ["bash", "-c", ENGINE, str(ROOT), options.renderer, "--no-header"]
-    command += ["--script", "res://bake/compare_list.gd", "--", "--list", str(work_list)]
     started, done = time.monotonic(), 0
-    with log.open("w", encoding="utf-8") as errors:
-        engine = subprocess.Popen(
-            command,
-            stdout=subprocess.PIPE,
-            stderr=errors,
-            stdin=subprocess.DEVNULL,
-            text=True,
-            start_new_session=True,
-            env={**os.environ, "LOBELIGHT_TERMINAL": "0"},
-        )
-        try:
-            for line in engine.stdout:
-                if not line.startswith(DONE):
-                    continue
-                case = missing[int(line.removeprefix(DONE))]
-                found = judge(case, options, keys, kept)
-                done += 1
-                seconds = (time.monotonic() - started) / done * (len(missing) - done)
-                print(f"[{done}/{len(missing)}] {case.title()}: {found} dB; {left(seconds)}", file=sys.stderr, flush=True)
-        finally:
-            if engine.poll() is None and done < len(missing):
-                os.killpg(engine.pid, signal.SIGTERM)
-            engine.wait()
-            work_list.unlink()
+    with contextlib.closing(batch.draw(entries, options.renderer, WORK)) as drawn:
+        for index in drawn:
+            found = judge(missing[index], options, keys, kept)
+            done += 1
+            seconds = (time.monotonic() - started) / done * (len(missing) - done)
+            title = missing[index].title()
+            print(f"[{done}/{len(missing)}] {title}: {found} dB; {left(seconds)}", file=sys.stderr, flush=True)
     if done < len(missing):
-        raise Problem(engine_failure(log))
+        raise Problem(batch.failure(WORK))
 
 
 def run(options):
@@ -181,8 +149,8 @@ def run(options):
     # Cases that several parts have are measured with what all of them need.
     wanted = {case.title() for case in plan((options.only,) if options.only else cases.PARTS, given_maps)}
     planned = [case for case in whole if case.title() in wanted]
-    sources = results.source_key(ROOT)
-    keys = {name: results.case_key(sources, path) for name, path in paths.items()}
+    sources = batch.source_key()
+    keys = {name: batch.case_key(sources, path) for name, path in paths.items()}
     options.out.mkdir(parents=True, exist_ok=True)
     kept = results.Results(options.out / "results.json")
     missing = [case for case in planned if not kept.entry(conditions_of(case, options, keys), case.methods)]

@@ -8,31 +8,11 @@ measured. A case counts as measured if its key, a hash of the sources that draw 
 """
 
 import csv
-import hashlib
 import json
 
 from cases import RIVAL
 
-SOURCES = ("gdextension/src", "addons/lobelight", "bake")
-# Built from the sources; other bytes on every machine.
-LEFT_OUT = ("addons/lobelight/bin/",)
-ENDINGS = {".cpp", ".h", ".gd", ".gdshader", ".gdshaderinc", ".res", ".tres", ".json"}
 COLUMNS = ("fetches", "probes", "table_fetches", "psnr", "flip", "relative_rmse", "gpu_ms", "gpu_ratio")
-
-
-def source_key(root):
-    """Hash of the names and contents of everything that a picture is made with."""
-    digest = hashlib.sha256()
-    for folder in SOURCES:
-        for path in sorted((root / folder).rglob("*")):
-            name = path.relative_to(root).as_posix()
-            if path.suffix in ENDINGS and not name.startswith(LEFT_OUT):
-                digest.update(name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
-    return digest.hexdigest()
-
-
-def case_key(sources, map_path):
-    return hashlib.sha256(sources.encode() + map_path.read_bytes()).hexdigest()[:16]
 
 
 class Results:

@@ -78,8 +78,12 @@ run_render() {
 run_commands() {
   # Anything set up only now would count as noise of the first command.
   need_import
+  need_python accuracy
+  need_python report
   run_logged commands in_time bash "$ROOT/tests/commands/errors_test.sh"
   judge commands
+  run_logged report in_time "$PYTHON" "$ROOT/tests/commands/report_test.py"
+  judge report
 }
 
 # The package and what is exported from a project that it was unpacked into.

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# measures error against run time of every method and writes docs/report ([--quick] [--renderers R,R] [--maps F,F] [--device])
+source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
+
+usage() {
+  cat <<USAGE
+usage: ./dev report [--quick] [--device] [--renderers R,R…] [--maps FILE,FILE…] [OPTIONS]
+
+--quick          a few cases at 64 x 64 in the Mobile renderer, in two or three minutes
+--device         times on the GPU of your display, added to what DIR has; 512 x 512
+--renderers R,R  of mobile, gl_compatibility, forward_plus (default: all); the first one measures most
+--maps F,F…      these maps too (.exr or .hdr); GPU times are of hall.exr
+--size N         pixels along the side (default 128)
+--samples N      of the reference, a pixel (default 640)
+--timing-rounds N   GPU times of every method, in turns (default 7)
+--json FILE      the verdicts and every figure there too
+--out DIR        README.md, index.html, compare/results.json, compare/results.csv and the figures (default: docs/report;
+                 below build/report with --quick, --maps, --renderers, --size, --samples or --timing-rounds)
+
+A run that was stopped goes on: cases that DIR/compare/results.json has, measured with the same sources and maps, are
+kept. Takes about 25 minutes on two cores. The metric is that of ./dev compare, and the pictures are drawn by its code.
+Methods, materials, maps and settings are those of tools/report/cases.py.
+USAGE
+}
+
+help_if_asked "$@"
+
+need_python report
+export PYTHONDONTWRITEBYTECODE=1 LOBELIGHT_CWD=$PWD
+# What is wrong with the options is said before anything is built.
+"$PYTHON" "$ROOT/tools/report/report.py" --check "$@"
+if [[ " $* " == *" --device "* && -z ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
+  die "report: --device draws with the GPU of your display, but neither DISPLAY nor WAYLAND_DISPLAY is set"
+fi
+need_engine
+need_library
+need_import
+exec "$PYTHON" "$ROOT/tools/report/report.py" "$@"

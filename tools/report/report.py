@@ -1,0 +1,272 @@
+#!/usr/bin/env python3
+"""`./dev report`: error against run time of every method, for materials, maps and renderers.
+
+Draws what results.json lacks, each renderer's cases in one run of the engine, judges them as ./dev compare does, and
+writes tables, figures and the page.
+"""
+
+import argparse
+import contextlib
+import datetime
+import pathlib
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(1, str(ROOT / "tools/compare"))
+# At the end: that folder has modules with the names of this one's.
+sys.path.append(str(ROOT / "tools/accuracy"))
+
+import batch  # noqa: E402
+import bright_map  # noqa: E402
+import cases  # noqa: E402
+import measurements  # noqa: E402
+import metrics  # noqa: E402
+import pages  # noqa: E402
+import sheets  # noqa: E402
+
+WORK = ROOT / "build/report"
+REPORT = ROOT / "docs/report"
+MAPS = {
+    "hall": ROOT / "demo/environments/hall.exr",
+    "sunset": ROOT / "demo/environments/sunset.exr",
+    "forest": ROOT / "tests/data/forest.exr",
+    cases.SYNTHETIC: WORK / f"synthetic-{bright_map.version()}.exr",
+}
+SIZE, QUICK_SIZE, GPU_SIZE = 128, 64, 512
+SAMPLES, GPU_SAMPLES = 640, 256
+TIMING_ROUNDS, QUICK_TIMING_ROUNDS = 7, 5
+# Of the engine, on one case; after that the case is left out.
+MOST_TRIES = 2
+MOST_CASES_LEFT_OUT = 5
+# What RenderingServer.get_video_adapter_type() calls a processor.
+DEVICE_TYPE_CPU = 4
+SOFTWARE_DRIVERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "software")
+
+
+class Problem(Exception):
+    """One sentence for the user."""
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise Problem(f"{message}; ./dev report --help lists the options")
+
+
+def whole_number(low, high):
+    def convert(text):
+        if not text.isdecimal() or not low <= int(text) <= high:
+            raise argparse.ArgumentTypeError(f"must be a whole number from {low} to {high}, not {text}")
+        return int(text)
+
+    return convert
+
+
+def renderer_list(text):
+    names = tuple(dict.fromkeys(name for name in text.split(",") if name))
+    unknown = [name for name in names if name not in cases.RENDERERS]
+    if unknown or not names:
+        wanted = ", ".join(cases.RENDERERS)
+        raise argparse.ArgumentTypeError(f"there is no renderer '{','.join(unknown)}'; take some of {wanted}")
+    return names
+
+
+def read_options(arguments):
+    parser = Parser(prog="./dev report", add_help=False, allow_abbrev=False)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--device", action="store_true")
+    parser.add_argument("--renderers", type=renderer_list)
+    parser.add_argument("--maps", type=lambda text: [pathlib.Path(name) for name in text.split(",") if name], default=[])
+    parser.add_argument("--size", type=whole_number(8, 2048))
+    parser.add_argument("--samples", type=whole_number(2, 1 << 20))
+    parser.add_argument("--timing-rounds", type=whole_number(1, 10000))
+    parser.add_argument("--json", type=pathlib.Path)
+    parser.add_argument("--out", type=pathlib.Path)
+    # Only looks at the options.
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args(arguments)
+    for path in options.maps:
+        if not path.is_file():
+            raise Problem(f"{path}: there is no such map")
+        if path.stem in MAPS or sum(other.stem == path.stem for other in options.maps) > 1:
+            raise Problem(f"{path}: another map has the name {path.stem}")
+    if options.json and not options.json.absolute().parent.is_dir():
+        raise Problem(f"{options.json}: its folder does not exist")
+    if options.out and options.out.exists() and not options.out.is_dir():
+        raise Problem(f"{options.out}: is not a folder")
+    given = any((options.maps, options.renderers, options.size, options.samples, options.timing_rounds))
+    if options.out is None:
+        # The repository's report is of the repository's maps, whole; a GPU adds to it.
+        options.out = WORK / ("quick" if options.quick else "own") if options.quick or given else REPORT
+    options.out = options.out.absolute()
+    if options.renderers is None:
+        options.renderers = cases.RENDERERS[:1] if options.quick else cases.RENDERERS
+    options.size = options.size or (GPU_SIZE if options.device else QUICK_SIZE if options.quick else SIZE)
+    options.samples = options.samples or (GPU_SAMPLES if options.device else SAMPLES)
+    options.timing_rounds = options.timing_rounds or (QUICK_TIMING_ROUNDS if options.quick else TIMING_ROUNDS)
+    return options
+
+
+def left(seconds):
+    return f"{seconds / 60:.0f} min left" if seconds >= 90 else f"{seconds:.0f} s left"
+
+
+class Progress:
+    """Says how far the run is; cases count by what they usually take."""
+
+    def __init__(self, missing):
+        self.count, self.done = len(missing), 0
+        self.weight, self.done_weight = sum(case.weight() for case in missing), 0.0
+        self.started = time.monotonic()
+
+    def step(self, case, said):
+        self.done += 1
+        self.done_weight += case.weight()
+        seconds = (time.monotonic() - self.started) * (self.weight / self.done_weight - 1.0)
+        print(f"[{self.done}/{self.count}] {case.title()}: {said}; {left(seconds)}", file=sys.stderr, flush=True)
+
+
+def folder_of(case):
+    return WORK / "cases" / case.name()
+
+
+def list_entry(case, options, paths):
+    return {
+        "env": str(paths[case.map]),
+        "brdf": case.brdf,
+        "alpha": case.alpha,
+        "methods": case.methods,
+        "size": options.size,
+        "samples": options.samples,
+        "timing_rounds": options.timing_rounds if case.timed else 0,
+        "out": str(folder_of(case)),
+        "tolerant": True,
+        "stage": case.stage,
+    }
+
+
+def require_gpu(plan):
+    name = plan["driver"]
+    if plan["driver_type"] == DEVICE_TYPE_CPU or any(word in name.lower() for word in SOFTWARE_DRIVERS):
+        raise Problem(f"--device found no GPU: the display's driver is {name}, which draws in software")
+
+
+def judge(case, options, keys, kept):
+    """Adds a drawn case to what is kept; returns what to say of it."""
+    folder = folder_of(case)
+    plan, rows = batch.judge(folder)
+    if case.device == cases.GPU:
+        require_gpu(plan)
+    methods = measurements.methods_of(rows, plan)
+    sheet = ""
+    if case.pictured:
+        sheet = f"{case.map}_{case.brdf}_{case.alpha[0]:g}_{case.alpha[1]:g}.png"
+        sheets.draw(folder, methods, kept.folder / sheet)
+    where = {
+        "machine": measurements.machine(),
+        "driver": plan["driver"],
+        "driver_version": plan["driver_version"],
+        "engine": plan["engine"],
+        "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d"),
+    }
+    entry = {"study": case.study, **measurements.conditions_of(case, options, keys), "sheet": sheet, "where": where}
+    kept.add({**entry, "methods": methods, "unavailable": plan.get("unavailable", {})})
+    kept.save()
+    best = max((m for m in methods if m != cases.REFERENCE), key=lambda m: methods[m]["psnr"] or 0.0, default=None)
+    return f"{len(methods) - 1} methods, best {best} {methods[best]['psnr'] or 0.0:.1f} dB" if best else "no method"
+
+
+def measure(missing, options, paths, keys, kept):
+    """Draws and judges the cases, renderer by renderer. Returns those that the engine could not draw, with the reason.
+
+    A case at which the engine stops is tried again, then left out.
+    """
+    progress, left_out, tries = Progress(missing), {}, {}
+    for renderer in dict.fromkeys(case.renderer for case in missing):
+        waiting = [case for case in missing if case.renderer == renderer]
+        while waiting:
+            done = 0
+            environment = {"LOBELIGHT_DISPLAY": "real"} if options.device else None
+            entries = [list_entry(case, options, paths) for case in waiting]
+            with contextlib.closing(batch.draw(entries, renderer, WORK, environment)) as drawn:
+                for index in drawn:
+                    case = waiting[index]
+                    try:
+                        said = judge(case, options, keys, kept)
+                    except metrics.MetricError as problem:
+                        left_out[case.title()] = str(problem)
+                        said = f"left out, {problem}"
+                    done += 1
+                    progress.step(case, said)
+            waiting = waiting[done:]
+            if waiting:
+                title, reason = waiting[0].title(), batch.failure(WORK)
+                tries[title] = tries.get(title, 0) + 1
+                if tries[title] == MOST_TRIES:
+                    left_out[title] = reason
+                    progress.step(waiting.pop(0), f"left out, {reason}")
+            if len(left_out) > MOST_CASES_LEFT_OUT:
+                raise Problem(f"too many cases cannot be drawn, the last reason: {list(left_out.values())[-1]}")
+    return left_out
+
+
+def ordered(plan):
+    """Map by map and setting by setting, so that each pyramid is made once; timed cases first: they say the most."""
+    keys = [(case.renderer, not case.timed, case.map, str(case.stage)) for case in plan]
+    first = {key: keys.index(key) for key in keys}
+    return sorted(plan, key=lambda case: first[(case.renderer, not case.timed, case.map, str(case.stage))])
+
+
+def run(options):
+    WORK.mkdir(parents=True, exist_ok=True)
+    if not MAPS[cases.SYNTHETIC].exists():
+        bright_map.write(MAPS[cases.SYNTHETIC])
+    paths = {**MAPS, **{path.stem: path.absolute() for path in options.maps}}
+    given_maps = tuple(path.stem for path in options.maps)
+    if options.device:
+        plan = cases.on_gpu(options.renderers)
+    else:
+        plan = (cases.quick if options.quick else cases.full)(options.renderers, given_maps)
+    sources = batch.source_key()
+    keys = {name: batch.case_key(sources, path) for name, path in paths.items()}
+    folder = options.out / "compare"
+    folder.mkdir(parents=True, exist_ok=True)
+    kept = measurements.Measurements(folder)
+
+    def entry_of(case):
+        return kept.entry(measurements.conditions_of(case, options, keys), case.methods, case.pictured)
+
+    missing = [case for case in ordered(plan) if not entry_of(case)]
+    if len(missing) < len(plan):
+        print(f"{len(plan) - len(missing)} of {len(plan)} cases are measured already", file=sys.stderr)
+    left_out = measure(missing, options, paths, keys, kept) if missing else {}
+    entries = [entry for entry in map(entry_of, plan) if entry]
+    # What the other kind of device has measured of the same sources and maps stays.
+    device = cases.GPU if options.device else cases.SOFTWARE
+    entries += [e for e in kept.of_other_devices(device) if e["key"] == keys.get(e["map"])]
+    if not entries:
+        raise Problem(f"nothing could be drawn: {next(iter(left_out.values()))}")
+    kept.save(entries)
+    measurements.write_csv(folder / "results.csv", entries)
+    summary = pages.write(options.out, entries, REPORT, left_out)
+    if options.json:
+        metrics.write_json(str(options.json), {**summary, "cases": entries})
+    print(f"report: {len(entries)} cases; {options.out / 'README.md'}, {options.out / 'index.html'}")
+    if left_out:
+        title, reason = next(iter(left_out.items()))
+        raise Problem(f"{len(left_out)} cases could not be measured, the first of them {title}: {reason}")
+
+
+def main():
+    try:
+        options = read_options(sys.argv[1:])
+        if not options.check:
+            run(options)
+    except (Problem, ValueError, OSError, metrics.MetricError) as problem:
+        sys.exit(f"report: {str(problem).rstrip('.')}.")
+    except KeyboardInterrupt:
+        sys.exit("report: stopped; the same command goes on from here.")
+
+
+if __name__ == "__main__":
+    main()

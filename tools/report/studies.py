@@ -1,0 +1,194 @@
+"""Sections of the page of `./dev report`: error against what methods cost beside a frame's time."""
+
+import json
+import math
+
+import analysis
+import cases
+import document as doc
+import figures
+from analysis import Place
+from page import decibels, joined, source_of
+
+# Variants of ./dev mobile-cost by method, for equal and for different widths; GPU and renderer of its figures shown here.
+PHONE_GPUS = (("adreno630", "mobile", "Adreno 630"), ("adreno740", "mobile", "Adreno 740"), ("adreno320", "gl_compatibility", "Adreno 320"))
+PHONE_MATERIALS = (("ward", (0.1, 0.1)), ("ward", (0.05, 0.2)))
+ANISOTROPIC_VARIANTS = {"stock": "stock_anisotropic"}
+TORAL_TEXEL_BYTES = 16
+# Six faces of half floats in four channels, a third more for the levels.
+BYTES_OF_SIDE = 64
+
+
+def update_time(own):
+    """Milliseconds of the GPU for what a changed environment asks of a method, where plan.json says it."""
+    for name in ("prefilter_ms", "rebuild_ms", "update_ms"):
+        value = own["settings"].get(name)
+        if isinstance(value, (int, float)) and math.isfinite(value) and value > 0.0:
+            return float(value)
+    return None
+
+
+def phone_variant(method, material, variants):
+    """The name of ./dev mobile-cost for a method's shader at a material."""
+    if cases.is_isotropic(material):
+        return f"{method}_isotropic" if f"{method}_isotropic" in variants else method
+    return ANISOTROPIC_VARIANTS.get(method, method)
+
+
+def study(page, name):
+    return [e for e in page.entries if e["study"] == name and (e["device"], e["renderer"]) == (page.device, page.renderer)]
+
+
+def toral_sizes(page, materials):
+    sizes = []
+    for material in dict.fromkeys(materials):
+        entry = analysis.find(page.entries, Place(page.device, page.renderer, cases.TIMED_MAP, material))
+        own = entry["methods"].get("toral8") if entry else None
+        if own and "views" in own["settings"]:
+            views = own["settings"]["views"]
+            size = views[0] * views[1] * own["fetches"] * TORAL_TEXEL_BYTES
+            sizes.append(f"{cases.material_name(material)} {size} bytes for {decibels(own['psnr'])} dB")
+    return f" The thesis' texture (`toral8`): {joined(sizes)}." if sizes else ""
+
+
+def tables_size(page):
+    entries = study(page, "table")
+    if not entries:
+        return
+    lines = {}
+    for entry in entries:
+        material = analysis.material_of(entry)
+        for method, own in entry["methods"].items():
+            size = own["settings"].get("table_bytes")
+            if size and own["psnr"] is not None:
+                panel = lines.setdefault(cases.material_name(material), {})
+                panel.setdefault((method, ""), []).append((size, own["psnr"]))
+    page.heading("Error against the table's size")
+    page.text(
+        "Views of the table, half floats, eight bytes for each lobe and view."
+        + toral_sizes(page, [analysis.material_of(entry) for entry in entries])
+    )
+    page.figure("table_size.svg", f"PSNR against the table's bytes, {cases.TIMED_MAP}", entries, figures.curves, lines, "bytes")
+
+
+def pyramids(page):
+    sizes, filters = study(page, "pyramid"), study(page, "filter")
+    if sizes:
+        lines = {}
+        for entry in sizes:
+            panel = lines.setdefault(cases.material_name(analysis.material_of(entry)), {})
+            for method, own in entry["methods"].items():
+                if method != cases.REFERENCE and own["psnr"] is not None:
+                    panel.setdefault((method, ""), []).append((entry["stage"]["pyramid_size"], own["psnr"]))
+        page.heading("Error against the pyramid's size")
+        largest = max(entry["stage"]["pyramid_size"] for entry in sizes)
+        page.text(
+            f"Six faces of half floats with all levels take {BYTES_OF_SIDE} side² bytes: {BYTES_OF_SIDE * largest**2 / 1e6:.1f} MB for"
+            f" {largest}. `fis40` has a pyramid of 2 × 2 means of that size."
+        )
+        caption = f"PSNR against the side of the cube map's faces, {cases.TIMED_MAP}"
+        page.figure("pyramid_size.svg", caption, sizes, figures.curves, lines, "texels along a face")
+    if filters:
+        groups = {}
+        for entry in filters:
+            material = analysis.material_of(entry)
+            usual = analysis.find(page.entries, Place(page.device, page.renderer, cases.TIMED_MAP, material))
+            panel = groups.setdefault(cases.material_name(material), {})
+            for method, own in entry["methods"].items():
+                if method == cases.REFERENCE or own["psnr"] is None:
+                    continue
+                panel.setdefault(method, {})[entry["stage"]["filter"]] = own["psnr"]
+                if usual and usual["methods"].get(method, {}).get("psnr") is not None:
+                    panel[method][cases.USUAL_FILTER] = usual["methods"][method]["psnr"]
+        page.heading("Error against the pyramid's filter")
+        page.figure("filter.svg", f"PSNR by the pyramid's filter, {cases.TIMED_MAP}", filters, figures.bars, groups)
+
+
+def biases(page):
+    entries, rows = study(page, "bias"), []
+    for entry in entries:
+        material = analysis.material_of(entry)
+        usual = analysis.find(page.entries, Place(page.device, page.renderer, cases.TIMED_MAP, material))
+        if usual:
+            methods = [m for m in entry["methods"] if m != cases.REFERENCE and m in usual["methods"]]
+            cells = [f"{decibels(usual['methods'][m]['psnr'])} / {decibels(entry['methods'][m]['psnr'])}" for m in methods]
+            rows.append([cases.material_name(material), *cells])
+    if rows:
+        page.heading("Importance sampling with another level")
+        bias = entries[0]["stage"]["fis_bias"]
+        page.text(
+            "PSNR in dB with the level of Colbert and Křivánek 2007, which is compared above, and"
+            f" {bias:g} level higher, as Křivánek and Colbert 2008 have it; on {cases.TIMED_MAP}."
+        )
+        page.table(["material", *methods], rows)
+        page.text(source_of(entries))
+
+
+def changing(page):
+    panels, rows, used = {}, [], []
+    for v in page.of_first():
+        entry = analysis.find(page.entries, v["place"])
+        name = cases.material_name(v["place"].material)
+        found = [(m, update_time(own), own) for m, own in entry["methods"].items() if update_time(own) is not None]
+        timed = [(m, update, own) for m, update, own in found if own["gpu_ms"] is not None and own["psnr"] is not None]
+        if not timed:
+            continue
+        used.append(entry)
+        panels[name] = [(m, update + own["gpu_ms"], own["psnr"]) for m, update, own in timed]
+        rows += [[name, m, f"{update:.1f}", f"{own['gpu_ms']:.2f}", decibels(own["psnr"])] for m, update, own in timed]
+    if panels:
+        page.heading("When the environment changes")
+        page.text(
+            "What a method makes anew from a changed environment before it can draw: a prefiltered map, or the pyramid. GPU"
+            " milliseconds of one update and of the sphere that it lights, which is small: in a game the update is shared by"
+            " everything that is drawn. Times in milliseconds are of this run only."
+        )
+        page.figure("changing.svg", f"Error against an update and a frame, {page.renderer}", used, figures.changing, panels)
+        table = doc.Table(["material", "method", "update, ms", "sphere, ms", "dB"], rows, 2)
+        page.blocks.append(doc.Folded("Updates and frames in milliseconds", [table]))
+
+
+def bake(page):
+    curve, readme = page.link("bench", "curve.svg"), page.link("bench", "README.md")
+    if curve and readme:
+        page.heading("Error against bake time")
+        where = json.loads((page.report_folder / "bench/curve.json").read_text(encoding="utf-8"))["machine"]
+        source = f"Measured by `./dev bench` on {where['processor']}, {where['cores']} cores; [the whole report]({readme})."
+        caption = "Error of whole tables of 8 lobes between views against the processor time of the bake"
+        page.blocks.append(doc.Figure(curve, caption, source))
+
+
+def phones(page):
+    path = page.report_folder / "mobile-cost/results.json"
+    readme = page.link("mobile-cost", "README.md")
+    if not path.exists() or readme is None:
+        return
+    counted = json.loads(path.read_text(encoding="utf-8"))
+    panels, rows, versions = {}, [], set()
+    for gpu, renderer, name in PHONE_GPUS:
+        variants = {row["variant"]: row for row in counted if row["gpu"] == gpu and row["renderer"] == renderer}
+        for material in PHONE_MATERIALS:
+            place = Place(page.device, page.renderer, cases.TIMED_MAP, material)
+            entry = analysis.find(page.entries, place)
+            if not variants or entry is None:
+                continue
+            found = []
+            for method, own in entry["methods"].items():
+                row = variants.get(phone_variant(method, material, variants))
+                if row and own["psnr"] is not None:
+                    found.append((method, row["instructions"], own["psnr"]))
+                    versions.add(row["mesa"])
+                    rows.append(
+                        [name, cases.material_name(material), method]
+                        + [str(row["instructions"]), str(row["registers"]), decibels(own["psnr"])]
+                    )
+            if found:
+                panels[f"{name}, {cases.material_name(material)}"] = found
+    if panels:
+        page.heading("What phones' GPUs execute")
+        figures.error_against_instructions(panels, page.folder / "phones.svg")
+        caption = f"PSNR ({page.renderer}, {cases.TIMED_MAP}) against instructions a pixel, by Mesa's compilers"
+        source = f"Compiled by `./dev mobile-cost` with Mesa {joined(sorted(versions))}; [all variants and GPUs]({readme})."
+        page.blocks.append(doc.Figure("compare/phones.svg", caption, source))
+        table = doc.Table(["GPU", "material", "method", "instructions", "registers", "dB"], rows, 3)
+        page.blocks.append(doc.Folded("Instructions and registers", [table]))
