@@ -1,6 +1,6 @@
 ## The tables that [code]./dev demo[/code] bakes for the demo.
 
-const FOLDER := "res://build/demo/tables"
+const FOLDER := "res://demo/build/tables"
 const RECIPES := "res://bake/recipes"
 
 

@@ -154,6 +154,9 @@ refuses "package, an unknown option" "--colour" package --colour red
 refuses "package, every desktop" "not available yet" package --all
 refuses "package, an output with the wrong ending" "x.tar" package --out x.tar
 refuses "package, an output in a missing folder" "missing/x.zip" package --out missing/x.zip
+refuses "android, an unknown option" "--colour" android --colour red
+refuses "android, an output that is a file" "is not a folder" android --out "$environment"
+refuses "android, JSON in a missing folder" "missing/a.json" android --json missing/a.json
 refuses "an unknown command" "no-such-command" no-such-command
 refuses "a command that comes later" "not available yet" fuzz
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # bakes the demo's tables, draws its pictures and measures them; --window opens it ([--env N] [--renderer R] [--out DIR])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
+# shellcheck source=tools/lib/demo_tables.sh
+source "$ROOT/tools/lib/demo_tables.sh"
 
-TABLES=$ROOT/build/demo/tables
-RECIPES=(polished_ward satin_ward brushed_ward satin_ggx)
 ENVIRONMENTS=(hall sunset)
 # What is measured: this recipe's BRDF with 8 lobes, on a sphere this many pixels wide.
 MEASURED_RECIPE=brushed_ward
@@ -60,27 +60,6 @@ if [[ -n $chosen ]]; then
 fi
 [[ -z $json || -d $(dirname -- "$json") ]] || die "demo: $json: its folder does not exist"
 
-# bake_table RECIPE LOBES: bakes a table unless it is there, made from the same recipe by the same library.
-bake_table() {
-  local recipe=$ROOT/bake/recipes/$1.json table=$TABLES/$1_$2.res key
-  key="$(content_hash "$recipe") $(library_key)"
-  if [[ ! -f $table ]] || ! stamp_is "$table.key" "$key"; then
-    bash "$ROOT/tools/commands/bake.sh" --recipe "$recipe" --lobes "$2" --out "$table" >&2
-    write_stamp "$table.key" "$key"
-  fi
-}
-
-# bake_tables LOBES…
-bake_tables() {
-  local recipe lobes
-  mkdir -p "$TABLES"
-  for recipe in "${RECIPES[@]}"; do
-    for lobes in "$@"; do
-      bake_table "$recipe" "$lobes"
-    done
-  done
-}
-
 draw_pictures() {
   local arguments=(--out "$out" --json "$work/pictures.json")
   [[ -z $chosen ]] || arguments+=(--env "$chosen")
@@ -108,7 +87,7 @@ if [[ -t 1 ]]; then LOBELIGHT_TERMINAL=1; fi
 if $window; then
   export LOBELIGHT_DISPLAY=real
   need_display
-  bake_tables 4 8 16
+  bake_demo_tables 4 8 16
   godot_rendered "$renderer" res://demo/demo.tscn
   exit
 fi
@@ -116,7 +95,7 @@ fi
 mkdir -p "$out" || die "demo: $out: the folder cannot be made"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-bake_tables 8
+bake_demo_tables 8
 draw_pictures
 for environment in "${environments[@]}"; do
   measure "$environment"

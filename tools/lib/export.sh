@@ -18,3 +18,19 @@ quiet_engine() {
 expect_pack() {
   "$PYTHON" "$ROOT/tools/android/pack_files.py" "$@"
 }
+
+# run_exported x86_64|arm64 PACK ARGUMENT…: an exported .pck with the engine's export template, headless and without
+# anything else of the project; arm64 is emulated. Fails if the run fails or an error or a warning is written.
+run_exported() {
+  local architecture=$1 pack=$2 folder status=0 emulator=()
+  shift 2
+  need_template "$architecture"
+  [[ $architecture == x86_64 ]] || emulator=("$TEMPLATE/root/qemu" -L "$TEMPLATE/root")
+  folder=$(mktemp -d)
+  # Debian's template runs the pack that lies beside it and has its name.
+  cp "$TEMPLATE/root/usr/bin/godot-template-debug" "$folder/game"
+  cp "$pack" "$folder/game.pck"
+  (cd "$folder" && HOME=$folder quiet_engine "${emulator[@]}" ./game --headless "$@") || status=$?
+  rm -rf "$folder"
+  return "$status"
+}

@@ -153,3 +153,18 @@ need_mobile_compilers() {
   if [[ $kind == mali ]]; then MOBILE_COMPILERS_MALI=$folder/root; else MOBILE_COMPILERS=$folder/root; fi
   export MOBILE_ENGINE MOBILE_COMPILERS MOBILE_COMPILERS_MALI
 }
+
+# need_template x86_64|arm64: the engine's export template of Debian's package; sets TEMPLATE, the folder that has it,
+# for run_exported in tools/lib/export.sh.
+need_template() {
+  if [[ ! -x $CACHE/engine/godot ]] || ! stamp_is "$CACHE/engine/key" "$(engine_key)"; then
+    need_packages
+    locked "$CACHE/lock/engine" bash "$ROOT/tools/setup/engine.sh"
+  fi
+  TEMPLATE=$CACHE/templates/$1-$(content_hash "$ROOT/tools/setup/template.sh" "$CACHE/engine/key")
+  if [[ ! -f $TEMPLATE/complete ]]; then
+    need_packages
+    locked "$CACHE/lock/template-$1" bash "$ROOT/tools/setup/template.sh" "$1" "$TEMPLATE"
+  fi
+  export TEMPLATE
+}

@@ -86,11 +86,13 @@ run_commands() {
   judge report
 }
 
-# The package and what is exported from a project that it was unpacked into.
+# The package, what is exported from a project that it was unpacked into, and the demo's pack for Android.
 run_export() {
   need_import
   run_logged export-package in_time bash "$ROOT/tests/commands/package_test.sh"
   judge export-package
+  run_logged export-android in_time bash "$ROOT/tools/commands/android.sh" --out "$RESULTS/android"
+  judge export-android
 }
 
 # What ./dev compare finds, against the project's bounds.
