@@ -8,10 +8,10 @@
 #include "fit/em.h"
 #include "fit/initial_guess.h"
 #include "fit/slice.h"
+#include "fit/view_error.h"
 #include "stability.h"
 #include "stability_em.h"
 #include "stability_materials.h"
-#include "table_errors.h"
 
 namespace lobelight::stability {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fit/slice.h"
+#include "fit/view_error.h"
 
 namespace lobelight {
 
@@ -20,21 +20,6 @@ glm::dvec3 view_between(const LobeTable& table, int t, int p) {
 }
 
 }  // namespace
-
-double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture) {
-  const Slice slice = sample_slice(brdf, o, 48, 0.5);
-  const double scale = slice.albedo / total_weight(mixture);
-  double sum = 0.0;
-  for (std::size_t n = 0; n < slice.weights.size(); ++n) {
-    const glm::dvec3& i = slice.directions[n];
-    const double value = brdf.evaluate(i, o) * i.z;
-    // Far off the lobe of an extreme material the value underflows.
-    if (value > 0.0) {
-      sum += slice.weights[n] * std::max(0.0, 1.0 - scale * evaluate(mixture, i) / value);
-    }
-  }
-  return 2.0 * sum / slice.albedo;
-}
 
 TableErrors table_errors(const LobeTable& table, const Brdf& brdf, bool nearest) {
   TableErrors errors;

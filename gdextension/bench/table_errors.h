@@ -27,10 +27,6 @@ struct TableErrors {
   Errors between_views;  // half-way between the grid's views
 };
 
-// ∫ |m − f| / ∫ f of a mixture m, scaled to the mass of the slice f = ρ(i, o) i_z: 2 ∫ max(0, f −
-// m), which needs nodes only where f is. They are not those that mixtures are fitted to.
-double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture);
-
 // The error of a table's mixtures, scaled to the slice's albedo, against ρ(i, o) i_z. Between views
 // a table is interpolated, or read at the view before where `nearest` says so.
 TableErrors table_errors(const LobeTable& table, const Brdf& brdf, bool nearest);

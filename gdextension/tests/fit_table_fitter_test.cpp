@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "fit/table_fitter.h"
+#include "fit/view_error.h"
 #include "statistics.h"
-#include "table_errors.h"
 
 namespace lobelight {
 namespace {

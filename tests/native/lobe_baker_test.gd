@@ -82,6 +82,8 @@ func test_result_has_the_documented_shape() -> void:
 				"seconds",
 				"iterations",
 				"log_likelihood",
+				"first_view_curve",
+				"errors",
 			]
 		)
 	)
@@ -101,6 +103,44 @@ func test_result_has_the_documented_shape() -> void:
 	assert_int(table.iterations.size()).is_equal(4 * 3)
 	assert_int(typeof(table.log_likelihood)).is_equal(TYPE_PACKED_FLOAT32_ARRAY)
 	assert_int(table.log_likelihood.size()).is_equal(4 * 3)
+	assert_int(typeof(table.errors)).is_equal(TYPE_PACKED_FLOAT32_ARRAY)
+	assert_int(table.errors.size()).is_equal(4 * 3)
+	assert_float(table.first_view_curve[-1]).is_greater(table.first_view_curve[0])
+
+
+func test_errors_fall_with_the_number_of_lobes() -> void:
+	var recipe := {"brdf": "ggx", "alpha": 0.3, "views": [3, 1]}
+	var worst: Array[float] = []
+	for lobes: int in [1, 8]:
+		recipe["lobes"] = lobes
+		var errors := Array(LobeBaker.new().bake(recipe).errors)
+		worst.append(errors.max())
+		assert_float(errors.min()).is_greater(0.0)
+	# Two densities of mass one are 2 apart at most.
+	assert_float(worst[0]).is_between(0.1, 2.0)
+	assert_float(worst[1]).is_less(0.5 * worst[0])
+
+
+func test_slice_in_plane_is_the_brdf_times_the_cosine() -> void:
+	# Ward 1992 at equal angles: h = n, so rho cos = 1 / (4 pi alpha^2) for o = mirror of i.
+	var view := Vector3(-0.6, 0.0, 0.8)
+	var slice := LobeBaker.slice_in_plane("ward", Vector2(0.2, 0.2), view, 181)
+	assert_int(slice.size()).is_equal(181)
+	assert_float(slice[0]).is_equal_approx(0.0, 1e-6)
+	# The view's side has the positive angles; the mirror direction is at -36.87 degrees.
+	var peak := slice.find(Array(slice).max())
+	assert_int(peak - 90).is_between(-45, -33)
+	var fine := LobeBaker.slice_in_plane("ward", Vector2(0.2, 0.2), Vector3(0, 0, 1), 3)
+	assert_float(fine[1]).is_equal_approx(1.0 / (4.0 * PI * 0.04), 1e-4)
+
+
+func test_slice_is_refused_for_what_cannot_be(
+	brdf: String, alpha: Vector2, view: Vector3, message: String, _test_parameters := ALBEDO_REFUSED
+) -> void:
+	var sizes := [1]
+	var call_it := func() -> void: sizes[0] = LobeBaker.slice_in_plane(brdf, alpha, view, 9).size()
+	await assert_error(call_it).is_push_error(message)
+	assert_int(sizes[0]).is_equal(0)
 
 
 func test_refinement_changes_lobes_and_keeps_the_albedo() -> void:

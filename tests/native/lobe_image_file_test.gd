@@ -53,6 +53,26 @@ func test_negative_and_non_finite_values_are_counted_and_become_zero() -> void:
 	assert_bool(read.pixels == expected).is_true()
 
 
+func test_half_panorama_is_an_image_for_a_texture() -> void:
+	var pixels := PackedFloat32Array([0.25, 1.0, 40000.0, -1.0, 2.0, NAN])
+	var path := _folder.path_join("half.exr")
+	assert_str(LobeImageFile.save_exr(path, 2, 1, pixels)).is_empty()
+	var read := LobeImageFile.load_half_panorama(path, "", 1.0)
+	assert_int(read.clamped).is_equal(1)
+	assert_int(read.capped).is_equal(1)
+	var image := Image.create_from_data(2, 1, false, Image.FORMAT_RGBAH, read.data)
+	assert_that(image.get_pixel(0, 0)).is_equal(Color(0.5, 2.0, 65504.0))
+	assert_that(image.get_pixel(1, 0)).is_equal(Color(0.0, 4.0, 0.0))
+
+
+func test_layers_are_listed_and_chosen_by_name() -> void:
+	var path := _folder.path_join("layers.exr")
+	assert_str(LobeImageFile.save_exr(path, 1, 1, PackedFloat32Array([1, 2, 3]))).is_empty()
+	assert_array(LobeImageFile.list_layers(path).layers).is_equal([""])
+	assert_str(LobeImageFile.load_panorama(path, "sun").error).contains("has no layer 'sun'")
+	assert_str(LobeImageFile.list_layers(_folder.path_join("no.exr")).error).contains("no.exr")
+
+
 func test_radiance_file_is_known_by_its_content() -> void:
 	var bytes := "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n".to_ascii_buffer()
 	# 128 · 2^(129−136) = 1, 64 · 2^(130−136) = 1, and so on: (r, g, b) · 2^(e−136).

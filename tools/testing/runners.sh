@@ -61,6 +61,20 @@ run_runtime() {
   run_suites runtime tests/runtime in_time godot_headless
 }
 
+# The editor's side: suites in a running editor, the editor closed during a bake, and without the native library.
+run_editor() {
+  local project=$RESULTS/editor-project
+  local editor=(in_time "$GODOT" --headless --editor --path "$project" ++)
+  bash "$ROOT/tools/testing/editor_project.sh" "$project"
+  run_logged editor "${editor[@]}" --editor-tests res://tests/editor/with_library
+  judge editor --engine --junit "$project/report/results.xml"
+  run_logged editor-closing "${editor[@]}" --quit-while-baking
+  judge editor-closing --engine
+  rm -rf "$project"/{report,addons/lobelight/{bin,lobelight.gdextension*},.godot/extension_list.cfg}
+  run_logged editor-without-library "${editor[@]}" --editor-tests res://tests/editor/without_library
+  judge editor-without-library --engine --junit "$project/report/results.xml"
+}
+
 # The demo's shapes and scene.
 run_demo() {
   run_suites demo tests/demo in_time godot_headless

@@ -6,15 +6,21 @@ extends EditorPlugin
 ## baker by the native library; what is added here are conversions of materials, and a warning about
 ## meshes that lack tangents.
 
+const BakeDialog := preload("bake/bake_dialog.gd")
+const BakeQueue := preload("bake/bake_queue.gd")
 const ExportPlugin := preload("export/export_plugin.gd")
 const MaterialConversionPlugin := preload("material_conversion_plugin.gd")
 const SceneConversionMenu := preload("scene_conversion_menu.gd")
+const TableInspector := preload("bake/table_inspector.gd")
 const TangentWarning := preload("tangent_warning.gd")
 
 var _export_plugin: ExportPlugin
 var _conversions: Array[MaterialConversionPlugin] = []
 var _scene_menu: SceneConversionMenu
 var _tangent_warning: TangentWarning
+var _bakes: BakeQueue
+var _bake_dialog: BakeDialog
+var _table_inspector: TableInspector
 
 
 func _enter_tree() -> void:
@@ -28,6 +34,12 @@ func _enter_tree() -> void:
 	add_context_menu_plugin(EditorContextMenuPlugin.CONTEXT_SLOT_SCENE_TREE, _scene_menu)
 	_tangent_warning = TangentWarning.new()
 	add_inspector_plugin(_tangent_warning)
+	_bakes = BakeQueue.new(get_undo_redo())
+	add_child(_bakes)
+	_bake_dialog = BakeDialog.new(_bakes)
+	EditorInterface.get_base_control().add_child(_bake_dialog)
+	_table_inspector = TableInspector.new(_bakes)
+	add_inspector_plugin(_table_inspector)
 
 
 func _exit_tree() -> void:
@@ -40,3 +52,14 @@ func _exit_tree() -> void:
 	_scene_menu = null
 	remove_inspector_plugin(_tangent_warning)
 	_tangent_warning = null
+	remove_inspector_plugin(_table_inspector)
+	_table_inspector = null
+	_bake_dialog.queue_free()
+	# A bake under way stops before the queue is gone.
+	_bakes.stop()
+	_bakes.queue_free()
+
+
+## The bakes under way.
+func get_bakes() -> BakeQueue:
+	return _bakes

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <stdexcept>
 #include <type_traits>
@@ -48,6 +49,14 @@ godot::PackedFloat32Array to_godot(const std::vector<float>& values) {
 
 godot::PackedFloat32Array to_godot(const std::vector<double>& values) {
   return pack<godot::PackedFloat32Array>(values);
+}
+
+godot::PackedByteArray to_bytes(const std::vector<std::uint16_t>& halves) {
+  const std::size_t size = halves.size() * sizeof(halves[0]);
+  godot::PackedByteArray bytes;
+  bytes.resize(static_cast<std::int64_t>(size));
+  if (size > 0) std::memcpy(bytes.ptrw(), halves.data(), size);
+  return bytes;
 }
 
 std::string file_system_path(const godot::String& path) {

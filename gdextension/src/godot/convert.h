@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
+#include <godot_cpp/variant/packed_byte_array.hpp>
 #include <godot_cpp/variant/packed_float32_array.hpp>
 #include <godot_cpp/variant/packed_int32_array.hpp>
 #include <godot_cpp/variant/string.hpp>
@@ -20,6 +22,8 @@ godot::PackedInt32Array to_godot(const std::vector<int>& values);
 godot::PackedFloat32Array to_godot(const std::vector<float>& values);
 // Rounded to single precision.
 godot::PackedFloat32Array to_godot(const std::vector<double>& values);
+
+godot::PackedByteArray to_bytes(const std::vector<std::uint16_t>& halves);
 
 // The file system's name of a res://, user:// or ordinary path. Throws std::invalid_argument for an
 // empty one.

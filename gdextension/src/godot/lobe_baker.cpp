@@ -4,15 +4,22 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <stdexcept>
+#include <system_error>
+#include <tuple>
 
 #include "brdf/measured.h"
 #include "fit/roughness_fitter.h"
 #include "fit/slice.h"
 #include "fit/table_fitter.h"
+#include "fit/view_error.h"
 #include "godot/convert.h"
 #include "godot/lobe_count.h"
 #include "godot/request.h"
@@ -22,6 +29,8 @@ using namespace godot;
 namespace lobelight {
 
 namespace {
+
+constexpr int kMaxPlaneDirections = 100000;
 
 // The recipe of a set of tables: one with "widths" instead of "alpha".
 SetRecipe read_set_recipe(const Dictionary& values) {
@@ -74,14 +83,6 @@ Recipe read_recipe(const Request& request) {
   return recipe;
 }
 
-PackedByteArray to_bytes(const std::vector<std::uint16_t>& halves) {
-  const std::size_t size = halves.size() * sizeof(halves[0]);
-  PackedByteArray bytes;
-  bytes.resize(static_cast<std::int64_t>(size));
-  std::memcpy(bytes.ptrw(), halves.data(), size);
-  return bytes;
-}
-
 Dictionary to_dictionary(const LobeTable& table, const FitReport& report, const Brdf& brdf,
                          const Recipe& recipe) {
   Dictionary result;
@@ -98,6 +99,9 @@ Dictionary to_dictionary(const LobeTable& table, const FitReport& report, const 
   result["seconds"] = report.seconds;
   result["iterations"] = to_godot(report.iterations);
   result["log_likelihood"] = to_godot(report.log_likelihood);
+  result["first_view_curve"] = to_godot(report.first_view_curve);
+  // Refined lobes do not stand for Gaussians.
+  if (!recipe.refine) result["errors"] = to_godot(view_errors(table, brdf, recipe.threads));
   if (const auto* measured = dynamic_cast<const MeasuredBrdf*>(&brdf)) {
     result["clamped"] = static_cast<std::int64_t>(measured->clamped());
     result["asymmetry"] = measured->asymmetry();
@@ -140,6 +144,37 @@ Dictionary bake_set(const SetRecipe& recipe, Progress& progress) {
   return result;
 }
 
+// The model or the file's measurements. Measurements are kept for the next call: they take a while
+// to read, and plots ask for many slices of them.
+std::shared_ptr<const Brdf> find_brdf(const String& brdf, const Vector2& alpha) {
+  const std::string given = to_std(brdf);
+  const glm::dvec2 widths(alpha.x, alpha.y);
+  if (!is_measured_file(given)) return make_brdf(given, widths);
+  static std::mutex mutex;
+  static std::shared_ptr<const Brdf> kept;
+  static std::tuple<std::string, std::filesystem::file_time_type, double, double> kept_key;
+  const std::string path = file_system_path(brdf);
+  std::error_code missing;
+  const auto time = std::filesystem::last_write_time(std::filesystem::u8path(path), missing);
+  const auto key = std::make_tuple(path, time, widths.x, widths.y);
+  const std::lock_guard lock(mutex);
+  if (!kept || kept_key != key) {
+    kept = make_brdf(path, widths);
+    kept_key = key;
+  }
+  return kept;
+}
+
+// Unit vector; throws std::invalid_argument unless it is above the horizon.
+glm::dvec3 read_view(const Vector3& view) {
+  const glm::dvec3 direction(view.x, view.y, view.z);
+  const double length = glm::length(direction);
+  if (!(direction.z > 0.0) || !std::isfinite(length)) {
+    throw std::invalid_argument("view must point above the horizon: its z must be positive.");
+  }
+  return direction / length;
+}
+
 }  // namespace
 
 void LobeBaker::_bind_methods() {
@@ -147,6 +182,9 @@ void LobeBaker::_bind_methods() {
   ClassDB::bind_method(D_METHOD("bake", "recipe"), &LobeBaker::bake, DEFVAL(Dictionary()));
   ClassDB::bind_static_method("LobeBaker", D_METHOD("directional_albedo", "brdf", "alpha", "view"),
                               &LobeBaker::directional_albedo);
+  ClassDB::bind_static_method("LobeBaker",
+                              D_METHOD("slice_in_plane", "brdf", "alpha", "view", "count"),
+                              &LobeBaker::slice_in_plane, DEFVAL(181));
 }
 
 Dictionary LobeBaker::bake(const Dictionary& recipe) const { return run(recipe); }
@@ -192,18 +230,33 @@ LobeTask::Work LobeBaker::prepare(const Dictionary& recipe) const {
 double LobeBaker::directional_albedo(const String& brdf, const Vector2& alpha,
                                      const Vector3& view) {
   try {
-    const glm::dvec3 direction(view.x, view.y, view.z);
-    const double length = glm::length(direction);
-    if (!(direction.z > 0.0) || !std::isfinite(length)) {
-      throw std::invalid_argument("view must point above the horizon: its z must be positive.");
-    }
-    const std::string given = to_std(brdf);
-    const std::unique_ptr<Brdf> model =
-        make_brdf(is_measured_file(given) ? file_system_path(brdf) : given, {alpha.x, alpha.y});
-    return sample_slice(*model, direction / length).albedo;
+    return sample_slice(*find_brdf(brdf, alpha), read_view(view)).albedo;
   } catch (const std::exception& error) {
     UtilityFunctions::push_error(to_godot(error.what()));
     return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+PackedFloat32Array LobeBaker::slice_in_plane(const String& brdf, const Vector2& alpha,
+                                             const Vector3& view, int count) {
+  try {
+    if (count < 2 || count > kMaxPlaneDirections) {
+      throw std::invalid_argument("count must be from 2 to 100000.");
+    }
+    const glm::dvec3 o = read_view(view);
+    const double side = std::hypot(o.x, o.y);
+    const glm::dvec2 azimuth = side > 0.0 ? glm::dvec2(o.x, o.y) / side : glm::dvec2(1.0, 0.0);
+    const std::shared_ptr<const Brdf> model = find_brdf(brdf, alpha);
+    std::vector<double> values;
+    for (int n = 0; n < count; ++n) {
+      const double angle = glm::pi<double>() * (n / (count - 1.0) - 0.5);
+      const glm::dvec3 i(std::sin(angle) * azimuth, std::cos(angle));
+      values.push_back(model->evaluate(i, o) * i.z);
+    }
+    return to_godot(values);
+  } catch (const std::exception& error) {
+    UtilityFunctions::push_error(to_godot(error.what()));
+    return PackedFloat32Array();
   }
 }
 

@@ -1,27 +1,57 @@
 #include "godot/lobe_image_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
 #include <vector>
 
 #include "godot/convert.h"
 #include "image/exr.h"
 #include "image/panorama.h"
+#include "table/half_float.h"
 
 using namespace godot;
 
 namespace lobelight {
 
+namespace {
+
+constexpr double kLargestHalf = 65504.0;
+
+Panorama read_panorama(const String& path, const String& layer) {
+  return lobelight::load_panorama(file_system_path(path), to_std(layer));
+}
+
+// What `read` makes of the file, or the sentence of what it throws.
+template <class Read>
+Dictionary result_of(const String& path, const Read& read) {
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+    return error_result(to_std(path) + ": there is not enough memory for it.");
+  } catch (const std::exception& error) {
+    return error_result(error.what());
+  }
+}
+
+}  // namespace
+
 void LobeImageFile::_bind_methods() {
-  ClassDB::bind_static_method("LobeImageFile", D_METHOD("load_panorama", "path"),
-                              &LobeImageFile::load_panorama);
+  ClassDB::bind_static_method("LobeImageFile", D_METHOD("load_panorama", "path", "layer"),
+                              &LobeImageFile::load_panorama, DEFVAL(String()));
+  ClassDB::bind_static_method("LobeImageFile",
+                              D_METHOD("load_half_panorama", "path", "layer", "exposure"),
+                              &LobeImageFile::load_half_panorama, DEFVAL(String()), DEFVAL(0.0));
+  ClassDB::bind_static_method("LobeImageFile", D_METHOD("list_layers", "path"),
+                              &LobeImageFile::list_layers);
   ClassDB::bind_static_method("LobeImageFile",
                               D_METHOD("save_exr", "path", "width", "height", "pixels"),
                               &LobeImageFile::save_exr);
 }
 
-Dictionary LobeImageFile::load_panorama(const String& path) {
-  try {
-    Panorama panorama = lobelight::load_panorama(file_system_path(path));
+Dictionary LobeImageFile::load_panorama(const String& path, const String& layer) {
+  return result_of(path, [&] {
+    Panorama panorama = read_panorama(path, layer);
     const std::size_t clamped = panorama.sanitise();
     Dictionary result;
     result["width"] = panorama.width;
@@ -29,11 +59,49 @@ Dictionary LobeImageFile::load_panorama(const String& path) {
     result["pixels"] = to_godot(panorama.rgb);
     result["clamped"] = static_cast<std::int64_t>(clamped);
     return result;
-  } catch (const std::bad_alloc&) {
-    return error_result(to_std(path) + ": there is not enough memory for it.");
-  } catch (const std::exception& error) {
-    return error_result(error.what());
-  }
+  });
+}
+
+Dictionary LobeImageFile::load_half_panorama(const String& path, const String& layer,
+                                             double exposure) {
+  return result_of(path, [&] {
+    Panorama panorama = read_panorama(path, layer);
+    const std::size_t clamped = panorama.sanitise();
+    const double factor = std::exp2(exposure);
+    const std::uint16_t one = half_from_double(1.0);
+    std::vector<std::uint16_t> halves;
+    halves.reserve(panorama.rgb.size() / 3 * 4);
+    std::int64_t capped = 0;
+    for (std::size_t texel = 0; texel + 2 < panorama.rgb.size(); texel += 3) {
+      bool is_capped = false;
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        const double value = factor * static_cast<double>(panorama.rgb[texel + channel]);
+        is_capped = is_capped || value > kLargestHalf;
+        halves.push_back(half_from_double(std::min(value, kLargestHalf)));
+      }
+      halves.push_back(one);
+      capped += is_capped ? 1 : 0;
+    }
+    Dictionary result;
+    result["width"] = panorama.width;
+    result["height"] = panorama.height;
+    result["data"] = to_bytes(halves);
+    result["clamped"] = static_cast<std::int64_t>(clamped);
+    result["capped"] = capped;
+    return result;
+  });
+}
+
+Dictionary LobeImageFile::list_layers(const String& path) {
+  return result_of(path, [&] {
+    Array layers;
+    for (const std::string& layer : panorama_layers(file_system_path(path))) {
+      layers.append(to_godot(layer));
+    }
+    Dictionary result;
+    result["layers"] = layers;
+    return result;
+  });
 }
 
 String LobeImageFile::save_exr(const String& path, std::int32_t width, std::int32_t height,

@@ -10,7 +10,13 @@ class LobeImageFile : public godot::RefCounted {
   GDCLASS(LobeImageFile, godot::RefCounted)
 
  public:
-  static godot::Dictionary load_panorama(const godot::String& path);
+  static godot::Dictionary load_panorama(const godot::String& path, const godot::String& layer);
+
+  // As RGBA16F, for a texture.
+  static godot::Dictionary load_half_panorama(const godot::String& path, const godot::String& layer,
+                                              double exposure);
+
+  static godot::Dictionary list_layers(const godot::String& path);
   static godot::String save_exr(const godot::String& path, std::int32_t width, std::int32_t height,
                                 const godot::PackedFloat32Array& pixels);
 

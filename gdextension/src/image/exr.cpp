@@ -11,7 +11,7 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
-#include <ImfPartType.h>
+#include <ImfRgbaYca.h>
 #include <ImfStandardAttributes.h>
 #include <ImfTileDescription.h>
 #include <half.h>
@@ -30,6 +30,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "image/exr_layers.h"
 #include "image/file_io.h"
 #include "image/image_error.h"
 #include "image/primaries.h"
@@ -51,6 +52,9 @@ constexpr std::int64_t kMaxTexelsPerFilledTexel = 64;
 constexpr double kSameColours = 0.005;
 
 constexpr float kLargestHalf = 65504.0f;
+
+// Columns and rows of the picture for one of chroma.
+constexpr int kChromaSampling = 2;
 
 class MemoryReader : public Imf::IStream {
  public:
@@ -144,50 +148,19 @@ struct Window {
   std::int64_t height() const { return bottom - top + 1; }
 };
 
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
-  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-  return text.substr(0, 300);
-}
-
-std::string channel_names(const Imf::ChannelList& channels) {
-  constexpr int kShown = 6;
-  std::string names;
-  int count = 0;
-  for (auto channel = channels.begin(); channel != channels.end(); ++channel, ++count) {
-    if (count < kShown) names += (count == 0 ? "" : ", ") + one_line(channel.name());
-  }
-  if (count > kShown) names += " and " + std::to_string(count - kShown) + " more";
-  return count == 0 ? "none at all" : names;
-}
-
-// The channels that make up a colour: R, G and B, or Y alone.
-std::vector<std::string> choose_channels(const Imf::ChannelList& channels,
-                                         const std::string& name) {
-  const bool colour =
-      channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B");
-  const bool grey = channels.findChannel("Y") != nullptr;
-  if (!colour && grey && (channels.findChannel("RY") || channels.findChannel("BY"))) {
-    throw ImageError(name, "stores luminance and chroma (Y, RY, BY), which is not supported");
-  }
-  if (!colour && !grey) {
-    throw ImageError(
-        name, "has neither channels R, G and B nor a channel Y, but " + channel_names(channels));
-  }
-  const auto chosen =
-      colour ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
-  for (const std::string& channel : chosen) {
-    const Imf::Channel* description = channels.findChannel(channel);
-    if (description->type != Imf::HALF && description->type != Imf::FLOAT) {
-      throw ImageError(name, "stores integers in channel " + channel + ", which is not supported");
-    }
-    if (description->xSampling != 1 || description->ySampling != 1) {
-      throw ImageError(
-          name, "stores channel " + channel + " at a lower resolution, which is not supported");
+// Refuses channels of another resolution than the picture's, apart from chroma.
+void check_sampling(const Imf::ChannelList& channels, const ExrLayer& layer,
+                    const std::string& name) {
+  for (std::size_t c = 0; c < layer.channels.size(); ++c) {
+    if (layer.channels[c].empty()) continue;
+    const bool is_chroma = layer.kind == ExrLayer::Kind::luminance_chroma && c > 0;
+    const int expected = is_chroma ? kChromaSampling : 1;
+    const Imf::Channel& channel = *channels.findChannel(layer.channels[c]);
+    if (channel.xSampling != expected || channel.ySampling != expected) {
+      throw ImageError(name, "stores channel " + one_line(layer.channels[c]) +
+                                 " at a resolution that is not supported");
     }
   }
-  return chosen;
 }
 
 // What takes the file's colours to Rec. 709; empty where they are that already.
@@ -215,9 +188,6 @@ void convert(Panorama& image, const glm::dmat3& conversion) {
 }
 
 void check_header(const Imf::Header& header, const std::string& name) {
-  if (header.hasType() && !Imf::isImage(header.type())) {
-    throw ImageError(name, "holds deep data, which is not supported");
-  }
   if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE) {
     throw ImageError(name, "is a cube map, not a latitude-longitude panorama");
   }
@@ -269,6 +239,7 @@ Panorama read_pixels(Imf::InputPart& part, const Window& display, const Window& 
     Imf::FrameBuffer target;
     const Imath::V2i origin(static_cast<int>(data.left), static_cast<int>(top));
     for (std::size_t c = 0; c < channels.size(); ++c) {
+      if (channels[c].empty()) continue;
       target.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, band.data() + c, origin, data.width(),
                                                   bottom - top + 1, 3 * sizeof(float),
                                                   band_row_size * sizeof(float)));
@@ -290,6 +261,109 @@ Panorama read_pixels(Imf::InputPart& part, const Window& display, const Window& 
   }
   pad_to(display.bottom + 1);
   return image;
+}
+
+// The planes of a picture in luminance and chroma, of the data window.
+struct Planes {
+  std::vector<float> luminance;  // width · height
+  std::vector<float> red, blue;  // (R − Y) / Y and (B − Y) / Y of every other column and row
+};
+
+// Row by row as well.
+Planes read_planes(Imf::InputPart& part, const Window& data,
+                   const std::vector<std::string>& channels) {
+  Planes planes;
+  std::vector<float>* const targets[] = {&planes.luminance, &planes.red, &planes.blue};
+  for (std::int64_t top = data.top; top <= data.bottom; top += kBandRows) {
+    const std::int64_t bottom = std::min(top + kBandRows - 1, data.bottom);
+    Imf::FrameBuffer target;
+    const Imath::V2i origin(static_cast<int>(data.left), static_cast<int>(top));
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const std::int64_t step = c == 0 ? 1 : kChromaSampling;
+      const std::int64_t columns = (data.width() + step - 1) / step;
+      const std::int64_t rows = (bottom - top + step) / step;
+      const std::size_t first = targets[c]->size();
+      targets[c]->resize(first + static_cast<std::size_t>(columns * rows));
+      target.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, targets[c]->data() + first, origin,
+                                                  data.width(), bottom - top + 1, sizeof(float),
+                                                  static_cast<std::size_t>(columns) * sizeof(float),
+                                                  static_cast<int>(step), static_cast<int>(step)));
+    }
+    part.setFrameBuffer(target);
+    part.readPixels(static_cast<int>(top), static_cast<int>(bottom));
+  }
+  return planes;
+}
+
+// Chroma at a pixel of the data window: linear between the stored ones, the last ones beyond.
+double chroma_at(const std::vector<float>& plane, const Window& data, std::int64_t x,
+                 std::int64_t y) {
+  const std::int64_t columns = (data.width() + 1) / kChromaSampling;
+  const std::int64_t rows = (data.height() + 1) / kChromaSampling;
+  const std::int64_t left = x / kChromaSampling, top = y / kChromaSampling;
+  const std::int64_t right = std::min(left + x % kChromaSampling, columns - 1);
+  const std::int64_t bottom = std::min(top + y % kChromaSampling, rows - 1);
+  const auto at = [&](std::int64_t column, std::int64_t row) {
+    return static_cast<double>(plane[static_cast<std::size_t>(row * columns + column)]);
+  };
+  return 0.25 * (at(left, top) + at(right, top) + at(left, bottom) + at(right, bottom));
+}
+
+// R = (RY + 1) Y, B = (BY + 1) Y, and G so that the luminance is Y (ImfRgbaYca.h).
+Panorama read_luminance_chroma(Imf::InputPart& part, const Window& display, const Window& data,
+                               const std::vector<std::string>& channels) {
+  const Planes planes = read_planes(part, data, channels);
+  const Imf::Header& header = part.header();
+  const Imath::V3f weights = Imf::RgbaYca::computeYw(
+      Imf::hasChromaticities(header) ? Imf::chromaticities(header) : Imf::Chromaticities());
+  Panorama image;
+  image.width = static_cast<int>(display.width());
+  image.height = static_cast<int>(display.height());
+  image.rgb.resize(3 * static_cast<std::size_t>(display.width() * display.height()));
+  for (std::int64_t y = std::max(display.top, data.top); y <= std::min(display.bottom, data.bottom);
+       ++y) {
+    for (std::int64_t x = std::max(display.left, data.left);
+         x <= std::min(display.right, data.right); ++x) {
+      const std::int64_t column = x - data.left, row = y - data.top;
+      const double luminance =
+          planes.luminance[static_cast<std::size_t>(row * data.width() + column)];
+      const double red = (chroma_at(planes.red, data, column, row) + 1.0) * luminance;
+      const double blue = (chroma_at(planes.blue, data, column, row) + 1.0) * luminance;
+      const double green = (luminance - red * static_cast<double>(weights.x) -
+                            blue * static_cast<double>(weights.z)) /
+                           static_cast<double>(weights.y);
+      float* rgb = &image.rgb[3 * static_cast<std::size_t>((y - display.top) * display.width() + x -
+                                                           display.left)];
+      rgb[0] = static_cast<float>(red);
+      // Rounding and interpolation leave something where there is none.
+      rgb[1] = static_cast<float>(green < 0.0 ? 0.0 : green);
+      rgb[2] = static_cast<float>(blue);
+    }
+  }
+  return image;
+}
+
+std::vector<Imf::Header> headers_of(const Imf::MultiPartInputFile& file) {
+  std::vector<Imf::Header> headers;
+  for (int part = 0; part < file.parts(); ++part) headers.push_back(file.header(part));
+  return headers;
+}
+
+// Calls `read` with the open file; what OpenEXR throws becomes an ImageError.
+template <class Read>
+auto with_file(const std::vector<std::uint8_t>& bytes, const std::string& name, const Read& read) {
+  if (!looks_like_exr(bytes)) throw ImageError(name, "is not an OpenEXR file");
+  try {
+    MemoryReader stream(bytes, name);
+    Imf::MultiPartInputFile file = open_exr(stream);
+    return read(stream, file);
+  } catch (const ImageError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw ImageError(name, "needs more memory than there is");
+  } catch (const std::exception& error) {
+    throw ImageError(name, "is damaged or not supported (" + one_line(reason_of(error)) + ")");
+  }
 }
 
 std::vector<half> to_half(const std::vector<float>& values) {
@@ -322,37 +396,37 @@ bool looks_like_exr(const std::vector<std::uint8_t>& bytes) {
   return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
 }
 
-Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& name) {
-  if (!looks_like_exr(bytes)) throw ImageError(name, "is not an OpenEXR file");
-  try {
-    MemoryReader stream(bytes, name);
-    Imf::MultiPartInputFile file = open_exr(stream);
-    if (file.parts() != 1) {
-      throw ImageError(name, "has " + std::to_string(file.parts()) +
-                                 " parts; only files with one part are supported");
-    }
-    const Imf::Header& header = file.header(0);
+std::vector<std::string> exr_layers(const std::vector<std::uint8_t>& bytes,
+                                    const std::string& name) {
+  return with_file(bytes, name, [](MemoryReader&, const Imf::MultiPartInputFile& file) {
+    std::vector<std::string> labels;
+    for (const ExrLayer& layer : find_layers(headers_of(file))) labels.push_back(layer.label);
+    return labels;
+  });
+}
+
+Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& name,
+                    const std::string& label) {
+  return with_file(bytes, name, [&](MemoryReader& stream, Imf::MultiPartInputFile& file) {
+    const ExrLayer layer = choose_layer(headers_of(file), label, name);
+    const Imf::Header& header = file.header(layer.part);
     check_header(header, name);
+    check_sampling(header.channels(), layer, name);
     const Window display(header.displayWindow());
     const Window data(header.dataWindow());
     check_windows(display, data, name);
-    const std::vector<std::string> channels = choose_channels(header.channels(), name);
-    Imf::InputPart part(file, 0);
+    Imf::InputPart part(file, layer.part);
     stream.take_ran_short();  // reading ahead in the header is no fault
-    Panorama image = read_pixels(part, display, data, channels);
+    Panorama image = layer.kind == ExrLayer::Kind::luminance_chroma
+                         ? read_luminance_chroma(part, display, data, layer.channels)
+                         : read_pixels(part, display, data, layer.channels);
     // OpenEXR 3.4 takes uncompressed rows that end early and fills them up.
     if (stream.take_ran_short()) throw ImageError(name, "ends in the middle of its pixels");
-    if (channels.size() == 3) {
+    if (layer.kind != ExrLayer::Kind::grey) {
       if (const auto conversion = colour_conversion(header, name)) convert(image, *conversion);
     }
     return image;
-  } catch (const ImageError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw ImageError(name, "needs more memory than there is");
-  } catch (const std::exception& error) {
-    throw ImageError(name, "is damaged or not supported (" + one_line(reason_of(error)) + ")");
-  }
+  });
 }
 
 void write_exr(const std::string& path, int width, int height,

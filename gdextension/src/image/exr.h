@@ -11,13 +11,20 @@ namespace lobelight {
 // Whether `bytes` begin as an OpenEXR file does.
 bool looks_like_exr(const std::vector<std::uint8_t>& bytes);
 
-// Decodes a scan-line or tiled (level 0) OpenEXR file with half or float channels R, G, B (an A
-// beside them is left aside) or Y, in any compression that the linked library knows. The result
-// has the size of the display window: what the data window leaves free is 0, what it has beyond
-// is cut. Colours with other primaries are converted to Rec. 709. Everything else (deep, several
-// parts, integers, luminance/chroma, layers, subsampled channels, cube maps, absurd sizes) throws
-// ImageError, as do damaged files. `name` stands for the file in messages.
-Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& name);
+// The layers of a file that decode_exr() takes, in the file's order; an empty name stands for plain
+// channels (image/exr_layers.h). Throws ImageError.
+std::vector<std::string> exr_layers(const std::vector<std::uint8_t>& bytes,
+                                    const std::string& name);
+
+// Decodes a scan-line or tiled (level 0) OpenEXR file in any compression that the linked library
+// knows: the channels R, G and B of `layer`, as half, float or whole numbers, those that are
+// missing being 0; or Y; or Y, RY and BY. An empty `layer` is the first that there is. The result
+// has the size of the display window: what the data window leaves free is 0, what it has beyond is
+// cut. Colours with other primaries are converted to Rec. 709. Everything else (deep data,
+// subsampled colours, cube maps, absurd sizes, files without such channels) throws ImageError, as
+// do damaged files. `name` stands for the file in messages.
+Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& name,
+                    const std::string& layer = "");
 
 enum class ExrPixelType { kHalf, kFloat };
 

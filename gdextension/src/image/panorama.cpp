@@ -86,13 +86,25 @@ void check_panorama_size(std::int64_t width, std::int64_t height, const std::str
   }
 }
 
-Panorama decode_panorama(const std::vector<std::uint8_t>& bytes, const std::string& name) {
+Panorama decode_panorama(const std::vector<std::uint8_t>& bytes, const std::string& name,
+                         const std::string& layer) {
   if (bytes.empty()) throw ImageError(name, "is empty");
-  if (looks_like_exr(bytes)) return decode_exr(bytes, name);
-  if (looks_like_radiance_hdr(bytes)) return decode_radiance_hdr(bytes, name);
-  throw ImageError(name, "is neither an OpenEXR nor a Radiance (.hdr) picture");
+  if (looks_like_exr(bytes)) return decode_exr(bytes, name, layer);
+  if (!looks_like_radiance_hdr(bytes)) {
+    throw ImageError(name, "is neither an OpenEXR nor a Radiance (.hdr) picture");
+  }
+  if (!layer.empty()) throw ImageError(name, "is a Radiance picture, which has no layers");
+  return decode_radiance_hdr(bytes, name);
 }
 
-Panorama load_panorama(const std::string& path) { return decode_panorama(read_file(path), path); }
+Panorama load_panorama(const std::string& path, const std::string& layer) {
+  return decode_panorama(read_file(path), path, layer);
+}
+
+std::vector<std::string> panorama_layers(const std::string& path) {
+  const std::vector<std::uint8_t> bytes = read_file(path);
+  if (looks_like_exr(bytes)) return exr_layers(bytes, path);
+  return {""};
+}
 
 }  // namespace lobelight

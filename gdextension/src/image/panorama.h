@@ -40,10 +40,14 @@ glm::dvec3 panorama_direction(const glm::dvec2& position);
 void check_panorama_size(std::int64_t width, std::int64_t height, const std::string& name);
 
 // Reads an OpenEXR or a Radiance (.hdr) file; its content says which, not its name.
-// `path` is UTF-8. Throws ImageError.
-Panorama load_panorama(const std::string& path);
+// `path` is UTF-8; `layer` as for decode_exr(), Radiance files have none. Throws ImageError.
+Panorama load_panorama(const std::string& path, const std::string& layer = "");
 
 // The same for a file that is already in memory; `name` stands for it in messages.
-Panorama decode_panorama(const std::vector<std::uint8_t>& bytes, const std::string& name);
+Panorama decode_panorama(const std::vector<std::uint8_t>& bytes, const std::string& name,
+                         const std::string& layer = "");
+
+// The layers of such a file; "" alone for a Radiance file. Throws ImageError.
+std::vector<std::string> panorama_layers(const std::string& path);
 
 }  // namespace lobelight

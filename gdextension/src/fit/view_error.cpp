@@ -1,0 +1,44 @@
+#include "fit/view_error.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "fit/slice.h"
+
+namespace lobelight {
+
+namespace {
+
+// Other nodes than the 64² that mixtures are fitted to.
+constexpr int kNodesPerAxis = 48;
+constexpr double kRotation = 0.5;
+
+}  // namespace
+
+double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture) {
+  const Slice slice = sample_slice(brdf, o, kNodesPerAxis, kRotation);
+  const double scale = slice.albedo / total_weight(mixture);
+  double sum = 0.0;
+  for (std::size_t n = 0; n < slice.weights.size(); ++n) {
+    const glm::dvec3& i = slice.directions[n];
+    const double value = brdf.evaluate(i, o) * i.z;
+    // Far off the lobe of an extreme material the value underflows.
+    if (value > 0.0) {
+      sum += slice.weights[n] * std::max(0.0, 1.0 - scale * evaluate(mixture, i) / value);
+    }
+  }
+  return 2.0 * sum / slice.albedo;
+}
+
+std::vector<double> view_errors(const LobeTable& table, const Brdf& brdf, int threads) {
+  const int elevations = table.views().x;
+  std::vector<double> errors(static_cast<std::size_t>(elevations * table.views().y));
+  parallel_for(errors.size(), threads, [&](std::size_t n) {
+    const int t = static_cast<int>(n) % elevations;
+    const int p = static_cast<int>(n) / elevations;
+    errors[n] = l1_error(brdf, table.view(t, p), table.mixture_at_view(t, p));
+  });
+  return errors;
+}
+
+}  // namespace lobelight
