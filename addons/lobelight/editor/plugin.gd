@@ -10,6 +10,8 @@ const BakeDialog := preload("bake/bake_dialog.gd")
 const BakeQueue := preload("bake/bake_queue.gd")
 const ExportPlugin := preload("export/export_plugin.gd")
 const MaterialConversionPlugin := preload("material_conversion_plugin.gd")
+const MeasuredImporter := preload("import/measured_importer.gd")
+const PanoramaImporter := preload("import/panorama_importer.gd")
 const SceneConversionMenu := preload("scene_conversion_menu.gd")
 const TableInspector := preload("bake/table_inspector.gd")
 const TangentWarning := preload("tangent_warning.gd")
@@ -21,6 +23,10 @@ var _tangent_warning: TangentWarning
 var _bakes: BakeQueue
 var _bake_dialog: BakeDialog
 var _table_inspector: TableInspector
+<<<<<<< /root/proj-editor/addons/lobelight/editor/plugin.gd
+var _importers: Array[EditorImportPlugin] = []
+=======
+>>>>>>> /root/edm/new
 
 
 func _enter_tree() -> void:
@@ -40,6 +46,12 @@ func _enter_tree() -> void:
 	EditorInterface.get_base_control().add_child(_bake_dialog)
 	_table_inspector = TableInspector.new(_bakes)
 	add_inspector_plugin(_table_inspector)
+<<<<<<< /root/proj-editor/addons/lobelight/editor/plugin.gd
+	_importers = [PanoramaImporter.new(), MeasuredImporter.new()]
+	for importer in _importers:
+		add_import_plugin(importer)
+=======
+>>>>>>> /root/edm/new
 
 
 func _exit_tree() -> void:
@@ -54,6 +66,12 @@ func _exit_tree() -> void:
 	_tangent_warning = null
 	remove_inspector_plugin(_table_inspector)
 	_table_inspector = null
+<<<<<<< /root/proj-editor/addons/lobelight/editor/plugin.gd
+	for importer in _importers:
+		remove_import_plugin(importer)
+	_importers.clear()
+=======
+>>>>>>> /root/edm/new
 	_bake_dialog.queue_free()
 	# A bake under way stops before the queue is gone.
 	_bakes.stop()

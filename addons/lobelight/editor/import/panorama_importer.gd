@@ -1,0 +1,146 @@
+@tool
+extends EditorImportPlugin
+## Imports environment maps through OpenEXR, for files that the engine's own importer refuses or
+## misreads: every compression, halves, floats and whole numbers, some of R, G and B, luminance with
+## or without chroma, other primaries, data and display windows, parts and layers. The result is an
+## [ImageTexture] of linear half floats, for [member LobeEnvironment3D.panorama] and
+## [member PanoramaSkyMaterial.panorama].
+## [br][br]
+## It is chosen in the import dock; the engine's importer stays the one that files get by default.
+
+const NativeLibrary := preload("../bake/native_library.gd")
+
+const NAME := "lobelight.panorama"
+
+
+func _get_importer_name() -> String:
+	return NAME
+
+
+func _get_visible_name() -> String:
+	return "Panorama (Lobelight)"
+
+
+func _get_recognized_extensions() -> PackedStringArray:
+	return ["exr", "hdr"]
+
+
+func _get_save_extension() -> String:
+	return "res"
+
+
+func _get_resource_type() -> String:
+	return "ImageTexture"
+
+
+# Below the engine's own.
+func _get_priority() -> float:
+	return 0.5
+
+
+func _get_import_order() -> int:
+	return 0
+
+
+func _get_preset_count() -> int:
+	return 1
+
+
+func _get_preset_name(_preset: int) -> String:
+	return "Default"
+
+
+func _get_import_options(path: String, _preset: int) -> Array[Dictionary]:
+	return [
+		{
+			"name": "layer",
+			"default_value": "",
+			"property_hint": PROPERTY_HINT_ENUM_SUGGESTION,
+			"hint_string": ",".join(list_layers(path)),
+		},
+		{
+			"name": "exposure",
+			"default_value": 0.0,
+			"property_hint": PROPERTY_HINT_RANGE,
+			"hint_string": "-16,16,0.01,suffix:EV",
+		},
+		{"name": "mipmaps", "default_value": false},
+	]
+
+
+func _get_option_visibility(path: String, option: StringName, _options: Dictionary) -> bool:
+	return option != &"layer" or path.is_empty() or not list_layers(path).is_empty()
+
+
+func _can_import_threaded() -> bool:
+	return false
+
+
+func _import(
+	source: String,
+	save_path: String,
+	options: Dictionary,
+	_platform_variants: Array[String],
+	_generated: Array[String]
+) -> Error:
+	var read := read_file(source, options)
+	if read.has("error"):
+		push_error(read["error"])
+		return ERR_FILE_CORRUPT
+	var report := describe_changes(read)
+	if report:
+		print("%s: %s" % [source, report])
+	var width: int = read["width"]
+	var height: int = read["height"]
+	var data: PackedByteArray = read["data"]
+	var image := Image.create_from_data(width, height, false, Image.FORMAT_RGBAH, data)
+	if options["mipmaps"]:
+		image.generate_mipmaps()
+	var texture := ImageTexture.create_from_image(image)
+	return ResourceSaver.save(
+		texture, "%s.%s" % [save_path, _get_save_extension()], ResourceSaver.FLAG_COMPRESS
+	)
+
+
+## What [method LobeImageFile.load_half_panorama] makes of a file, or its [code]"error"[/code], a
+## sentence.
+static func read_file(source: String, options: Dictionary) -> Dictionary:
+	var problem := NativeLibrary.get_problem()
+	if problem:
+		return {"error": "%s: %s" % [source, problem]}
+	var file := NativeLibrary.create(&"LobeImageFile")
+	var read: Dictionary = file.call(
+		"load_half_panorama", source, options["layer"], options["exposure"]
+	)
+	if read.has("error"):
+		read["error"] = name_by_project(read["error"], source)
+	return read
+
+
+## The layers of a file that can be chosen; none where there is no choice, or no library.
+static func list_layers(path: String) -> PackedStringArray:
+	var file := NativeLibrary.create(&"LobeImageFile")
+	if path.is_empty() or file == null or not FileAccess.file_exists(path):
+		return []
+	var listed: Dictionary = file.call("list_layers", path)
+	var names: PackedStringArray = []
+	for layer: String in listed.get("layers", []):
+		# Commas part the names of a hint.
+		if not layer.is_empty() and not layer.contains(","):
+			names.append(layer)
+	return names
+
+
+## What the import has changed, in words; empty if nothing.
+static func describe_changes(read: Dictionary) -> String:
+	var changes: PackedStringArray = []
+	if read["clamped"] > 0:
+		changes.append("%d texels were negative or not finite and are black" % read["clamped"])
+	if read["capped"] > 0:
+		changes.append("%d texels were brighter than 65504 and have that" % read["capped"])
+	return ", ".join(changes)
+
+
+## A message of the library with the file's path in the project instead of that on the machine.
+static func name_by_project(message: String, source: String) -> String:
+	return message.replace(ProjectSettings.globalize_path(source), source)

@@ -1,0 +1,149 @@
+@tool
+extends GdUnitTestSuite
+## The importers in the running editor, with good files and bad ones.
+
+const Kit := preload("res://tests/editor/editor_kit.gd")
+const MeasuredImporter := preload("res://addons/lobelight/editor/import/measured_importer.gd")
+const PanoramaImporter := preload("res://addons/lobelight/editor/import/panorama_importer.gd")
+const Recipe := preload("res://addons/lobelight/editor/bake/bake_recipe.gd")
+
+const FILES := "res://data"
+const FOLDER := "res://imported"
+## File, options, the first texel.
+const GOOD := [
+	["layers.exr", {}, Color(10, 11, 12)],
+	["layers.exr", {"layer": "key"}, Color(1, 2, 3)],
+	["layers.exr", {"layer": "fill", "exposure": -1.0}, Color(5, 5.5, 6)],
+	["parts.exr", {}, Color(2, 2, 2)],
+	["parts.exr", {"layer": "right", "mipmaps": true}, Color(4, 4, 4)],
+	["numbers.exr", {}, Color(1, 2, 3)],
+	["wild.exr", {}, Color(0, 65504, 65504)],
+]
+const BAD := [
+	["alpha.exr", {}, "alpha.exr: has none of the channels R, G, B and Y, but A"],
+	["cut.exr", {}, "cut.exr: is damaged"],
+	["text.exr", {}, "text.exr: is neither an OpenEXR nor a Radiance"],
+	["missing.exr", {}, "missing.exr"],
+	["layers.exr", {"layer": "rim"}, "layers.exr: has no layer 'rim'; its layers are fill, key"],
+]
+
+
+func before() -> void:
+	Kit.get_plugin(get_tree())
+	DirAccess.make_dir_absolute(FOLDER)
+	await _scan(true)
+
+
+func after() -> void:
+	for file in DirAccess.get_files_at(FOLDER):
+		DirAccess.remove_absolute(FOLDER.path_join(file))
+	DirAccess.remove_absolute(FOLDER)
+	await _scan(false)
+
+
+# The scan begins and ends some frames later.
+func _scan(is_there: bool) -> void:
+	var files := EditorInterface.get_resource_filesystem()
+	files.scan()
+	var is_known := func() -> bool:
+		var folder := files.get_filesystem_path(FOLDER)
+		return not files.is_scanning() and (folder != null) == is_there
+	await Kit.wait_until(get_tree(), is_known)
+
+
+# Hands a file to an importer, as the import dock does.
+func _reimport(file: String, importer: String, options: Dictionary) -> String:
+	var path := FOLDER.path_join(file)
+	var config := ConfigFile.new()
+	config.set_value("remap", "importer", importer)
+	for option: String in options:
+		config.set_value("params", option, options[option])
+	config.save(path + ".import")
+	DirAccess.copy_absolute(FILES.path_join(file), path)
+	EditorInterface.get_resource_filesystem().update_file(path)
+	EditorInterface.get_resource_filesystem().reimport_files([path])
+	return path
+
+
+func test_panoramas_are_imported_as_textures() -> void:
+	for case: Array in GOOD:
+		var path := _reimport(case[0], PanoramaImporter.NAME, case[1])
+		var texture := (
+			ResourceLoader.load(path, "", ResourceLoader.CACHE_MODE_IGNORE_DEEP) as ImageTexture
+		)
+		assert_object(texture).append_failure_message(str(case)).is_not_null()
+		var image := texture.get_image()
+		assert_that(image.get_size()).is_equal(Vector2i(8, 4))
+		assert_int(image.get_format()).is_equal(Image.FORMAT_RGBAH)
+		assert_bool(image.has_mipmaps()).is_equal((case[1] as Dictionary).has("mipmaps"))
+		var texel := image.get_pixel(0, 0)
+		# DWAA keeps colours within some percent.
+		for channel in 3:
+			var expected: float = (case[2] as Color)[channel]
+			assert_float(texel[channel]).append_failure_message(str(case)).is_equal_approx(
+				expected, 0.02 * expected + 1e-6
+			)
+
+
+func test_bad_panoramas_are_refused_in_a_sentence(
+	file: String, options: Dictionary, message: String, _test_parameters := BAD
+) -> void:
+	var importer := PanoramaImporter.new()
+	var results: Array[Error] = []
+	var path := FILES.path_join(file)
+	var all := {"layer": "", "exposure": 0.0, "mipmaps": false}
+	all.merge(options, true)
+	var sentence: String = PanoramaImporter.read_file(path, all)["error"]
+	assert_str(sentence).starts_with("res://data/").contains(message)
+	var import := func() -> void: results.append(importer._import(path, "user://bad", all, [], []))
+	await assert_error(import).is_push_error(sentence)
+	assert_int(results[0]).is_not_equal(OK)
+	assert_bool(FileAccess.file_exists("user://bad.res")).is_false()
+
+
+func test_layers_are_offered_in_the_import_dock() -> void:
+	var importer := PanoramaImporter.new()
+	var options := importer._get_import_options(FILES.path_join("layers.exr"), 0)
+	assert_str(options[0]["hint_string"]).is_equal("fill,key")
+	var visible := func(file: String) -> bool:
+		return importer._get_option_visibility(FILES.path_join(file), &"layer", {})
+	assert_bool(visible.call("layers.exr")).is_true()
+	assert_bool(visible.call("numbers.exr")).is_false()
+
+
+func test_what_was_changed_is_said() -> void:
+	assert_str(PanoramaImporter.describe_changes({"clamped": 0, "capped": 0})).is_empty()
+	var text := PanoramaImporter.describe_changes({"clamped": 2, "capped": 31})
+	assert_str(text).contains("2 texels were negative or not finite")
+	assert_str(text).contains("31 texels were brighter than 65504")
+
+
+func test_the_engine_keeps_its_own_importer_by_default() -> void:
+	assert_float(PanoramaImporter.new()._get_priority()).is_less(1.0)
+
+
+func test_measurements_are_imported_as_tables() -> void:
+	var path := _reimport("white.bsdf", MeasuredImporter.NAME, {"lobes": 4})
+	var table := load(path) as LobeTable
+	assert_object(table).is_not_null()
+	assert_str(table.get_problem()).is_empty()
+	assert_int(table.lobe_count).is_equal(4)
+	assert_str(table.brdf).is_equal("white.bsdf")
+	var recipe: Recipe = Recipe.from_table(table)
+	assert_str(recipe.brdf).is_equal(path)
+	var report: Dictionary = table.get_meta(Recipe.REPORT_META)
+	assert_int(report["clamped"]).is_equal(1)
+
+
+func test_what_is_no_measurement_is_refused_in_a_sentence() -> void:
+	var importer := MeasuredImporter.new()
+	var results: Array[Error] = []
+	var recipe := Recipe.new()
+	recipe.brdf = FILES.path_join("text.binary")
+	var sentence: String = MeasuredImporter.bake(recipe)["error"]
+	assert_str(sentence).starts_with("res://data/text.binary: ")
+	var options := {"lobes": 4, "target": 30.0}
+	var import := func() -> void:
+		results.append(importer._import(recipe.brdf, "user://bad", options, [], []))
+	await assert_error(import).is_push_error(sentence)
+	assert_int(results[0]).is_not_equal(OK)
