@@ -1,4 +1,4 @@
-"""The sphere by Mitsuba 3 (Jakob et al. 2022): its own geometry, environment map, microfacet code and estimator.
+"""The sphere and the teapot by Mitsuba 3 (Jakob et al. 2022): its geometry, environment map, microfacet code, estimator.
 
 What differs from the contract, and what is done about it:
 - Mitsuba's envmap has its texels at other places: column i at u = (i + ½)/W, but row j at v = j/(H − 1). The panorama
@@ -11,6 +11,11 @@ What differs from the contract, and what is done about it:
   quotient is h_z⁴ √(i_z o_z)/G, with Mitsuba's own G.
 - A sphere's tangent goes around its z axis; it is turned so that this is the world's y axis.
 - Rays start at the pixels' centres.
+- A mesh without texture coordinates has arbitrary tangents: the reflectance is evaluated in a frame about Mitsuba's own
+  interpolated normal whose tangent is (0, 1, 0) × normal.
+- The reference knows no shadows and no light that is reflected twice. The sphere has neither. On the teapot Mitsuba's
+  `direct` integrator would cast shadows: render_mesh() takes its two samplers, of the reflectance and of the light, and
+  the balance heuristic (Veach 1997) without them.
 """
 
 import drjit as dr
@@ -23,12 +28,16 @@ mi.set_variant("llvm_ad_rgb")
 
 
 class Reweighted(mi.BSDF):
-    """roughconductor without Fresnel, times a quotient of reflectances."""
+    """roughconductor without Fresnel, times a quotient of reflectances.
+
+    With `turned`, the tangent is not the shape's but (0, 1, 0) × normal.
+    """
 
     def __init__(self, props):
         mi.BSDF.__init__(self, props)
         self.brdf = props["brdf"]
         self.alpha = (props["alpha_x"], props["alpha_y"])
+        self.turned = props.get("turned", False)
         distribution = "beckmann" if self.brdf == "ward" else "ggx"
         self.stock = mi.load_dict(
             {
@@ -60,19 +69,36 @@ class Reweighted(mi.BSDF):
             value = dr.square(dr.square(h.z)) * dr.sqrt(i.z * o.z) / dr.maximum(masking, 1e-20)
         return dr.select((i.z > 0) & (o.z > 0), value, 0)
 
+    def own(self, si, *directions):
+        """The interaction and directions of its frame, in the frame of `turned`; and that frame."""
+        frame = si.sh_frame
+        if not self.turned:
+            return (si, *directions, frame)
+        tangent = dr.normalize(dr.cross(mi.Vector3f(0, 1, 0), frame.n))
+        own = mi.Frame3f(tangent, dr.cross(frame.n, tangent), frame.n)
+        turned = mi.SurfaceInteraction3f(si)
+        turned.wi = own.to_local(frame.to_world(si.wi))
+        return (turned, *(own.to_local(frame.to_world(direction)) for direction in directions), own)
+
     def sample(self, ctx, si, sample1, sample2, active):
-        drawn, weight = self.stock.sample(ctx, si, sample1, sample2, active)
-        return drawn, weight * self.quotient(si.wi, drawn.wo)
+        turned, own = self.own(si)
+        drawn, weight = self.stock.sample(ctx, turned, sample1, sample2, active)
+        weight = weight * self.quotient(turned.wi, drawn.wo)
+        drawn.wo = si.sh_frame.to_local(own.to_world(drawn.wo))
+        return drawn, weight
 
     def eval(self, ctx, si, wo, active):
-        return self.stock.eval(ctx, si, wo, active) * self.quotient(si.wi, wo)
+        turned, out, _ = self.own(si, wo)
+        return self.stock.eval(ctx, turned, out, active) * self.quotient(turned.wi, out)
 
     def pdf(self, ctx, si, wo, active):
-        return self.stock.pdf(ctx, si, wo, active)
+        turned, out, _ = self.own(si, wo)
+        return self.stock.pdf(ctx, turned, out, active)
 
     def eval_pdf(self, ctx, si, wo, active):
-        value, pdf = self.stock.eval_pdf(ctx, si, wo, active)
-        return value * self.quotient(si.wi, wo), pdf
+        turned, out, _ = self.own(si, wo)
+        value, pdf = self.stock.eval_pdf(ctx, turned, out, active)
+        return value * self.quotient(turned.wi, out), pdf
 
     def to_string(self):
         return f"Reweighted[{self.brdf}, {self.alpha}]"
@@ -107,6 +133,23 @@ def check_panorama(panorama, directions=20000):
     return float(np.max(np.abs(theirs - ours) / (ours + ours.mean())))
 
 
+def material(brdf, alpha, turned=False):
+    """The description of a Reweighted."""
+    widths = {"alpha_x": float(alpha[0]), "alpha_y": float(alpha[1])}
+    return {"type": "lobelight_reweighted", "brdf": brdf, "turned": turned, **widths}
+
+
+def mean_of_batches(batches, batch):
+    """Mean and standard error of batch(number), arrays of one shape."""
+    means = np.array([batch(number) for number in range(batches)])
+    return means.mean(axis=0), means.std(axis=0, ddof=1) / np.sqrt(batches)
+
+
+def averaged(value, count, per_batch):
+    """The mean over the samples of each pixel, (count, 3)."""
+    return np.array(value).T.reshape(count, per_batch, 3).mean(axis=1, dtype=np.float64)
+
+
 def render(panorama, brdf, alpha, size, samples, batches=16):
     """Radiance (size, size, 3) and its standard error from the spread of independent batches; 0 beside the sphere.
 
@@ -119,12 +162,7 @@ def render(panorama, brdf, alpha, size, samples, batches=16):
             "sphere": {
                 "type": "sphere",
                 "to_world": mi.ScalarTransform4f().rotate([1, 0, 0], -90),
-                "bsdf": {
-                    "type": "lobelight_reweighted",
-                    "brdf": brdf,
-                    "alpha_x": float(alpha[0]),
-                    "alpha_y": float(alpha[1]),
-                },
+                "bsdf": material(brdf, alpha),
             },
         }
     )
@@ -138,14 +176,62 @@ def render(panorama, brdf, alpha, size, samples, batches=16):
     ray = mi.Ray3f(
         mi.Point3f(np.repeat(origin, per_batch, axis=1)), mi.Vector3f(0.0, 0.0, -1.0)
     )
-    means = []
-    for batch in range(batches):
+
+    def batch(number):
         sampler = mi.load_dict({"type": "independent"})
-        sampler.seed(batch, count * per_batch)
+        sampler.seed(number, count * per_batch)
         value, _, _ = integrator.sample(scene, sampler, mi.RayDifferential3f(ray))
-        means.append(np.array(value).T.reshape(count, per_batch, 3).mean(axis=1, dtype=np.float64))
-    means = np.array(means)
+        return averaged(value, count, per_batch)
+
     radiance, error = np.zeros((size, size, 3)), np.zeros((size, size, 3))
-    radiance[inside] = means.mean(axis=0)
-    error[inside] = means.std(axis=0, ddof=1) / np.sqrt(batches)
+    radiance[inside], error[inside] = mean_of_batches(batches, batch)
     return radiance, error
+
+
+def without_shadows(scene, bsdf, si, sampler):
+    """One estimate of the light that surfaces reflect, as if each were alone: a sample of the light and one of the BSDF."""
+    context, light = mi.BSDFContext(), scene.environment()
+    found, weight = light.sample_direction(si, sampler.next_2d())
+    value, pdf = bsdf.eval_pdf(context, si, si.to_local(found.d), True)
+    lit = (found.pdf > 0) & (found.pdf + pdf > 0)
+    result = dr.select(lit, value * weight * (found.pdf / (found.pdf + pdf)), 0)
+
+    drawn, weight = bsdf.sample(context, si, sampler.next_1d(), sampler.next_2d(), True)
+    direction = dr.zeros(mi.DirectionSample3f)
+    direction.d = si.to_world(drawn.wo)
+    seen = dr.zeros(mi.SurfaceInteraction3f)
+    seen.wi = -direction.d
+    light_pdf = light.pdf_direction(si, direction)
+    drawn_any = drawn.pdf > 0
+    return result + dr.select(drawn_any, weight * light.eval(seen) * (drawn.pdf / (drawn.pdf + light_pdf)), 0)
+
+
+def render_mesh(panorama, path, camera, brdf, alpha, samples, batches=16):
+    """Radiance, its standard error and Mitsuba's normals of a mesh, (height, width, 3) each; 0 beside it.
+
+    `samples`: of the light a pixel in all, and as many of the reflectance. No shadows, no light reflected twice.
+    """
+    scene = mi.load_dict({"type": "scene", "light": environment(panorama), "mesh": {"type": "obj", "filename": str(path)}})
+    bsdf = mi.load_dict(material(brdf, alpha, turned=True))
+    view = camera.axes()[2]
+    places = camera.places().reshape(-1, 3) + 8.0 * view
+
+    def interactions(origins):
+        ray = mi.Ray3f(mi.Point3f(origins.T.astype(np.float32)), mi.Vector3f((-view).tolist()))
+        return scene.ray_intersect(ray)
+
+    once = interactions(places)
+    hit = np.array(once.is_valid())
+    normal = np.where(hit[:, None], np.array(once.sh_frame.n).T, 0.0)
+    count, per_batch = int(np.count_nonzero(hit)), max(1, samples // batches)
+    si = interactions(np.repeat(places[hit], per_batch, axis=0))
+    dr.eval(si)
+
+    def batch(number):
+        sampler = mi.load_dict({"type": "independent"})
+        sampler.seed(number, count * per_batch)
+        return averaged(without_shadows(scene, bsdf, si, sampler), count, per_batch)
+
+    radiance, error = np.zeros((len(hit), 3)), np.zeros((len(hit), 3))
+    radiance[hit], error[hit] = mean_of_batches(batches, batch)
+    return tuple(picture.reshape(camera.height, camera.width, 3) for picture in (radiance, error, normal))
