@@ -7,9 +7,11 @@ source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 (($# == 1)) || die "editor_project.sh takes a folder"
 project=$1
 need_engine
+need_python ""
 
 rm -rf "$project"
-mkdir -p "$project/addons" "$project/.godot" "$project/tests" "$project/data"
+mkdir -p "$project/addons" "$project/.godot" "$project/tests"
+"$PYTHON" "$ROOT/tests/editor/files.py" "$project/data"
 cp -r "$ROOT/addons/lobelight" "$project/addons/lobelight"
 cp -r "$ROOT/tools/gdunit_standin" "$project/addons/gdUnit4"
 rm -rf "$project/addons/gdUnit4/.gdignore" "$project/addons/gdUnit4/selftest"

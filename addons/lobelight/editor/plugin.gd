@@ -23,10 +23,7 @@ var _tangent_warning: TangentWarning
 var _bakes: BakeQueue
 var _bake_dialog: BakeDialog
 var _table_inspector: TableInspector
-<<<<<<< /root/proj-editor/addons/lobelight/editor/plugin.gd
 var _importers: Array[EditorImportPlugin] = []
-=======
->>>>>>> /root/edm/new
 
 
 func _enter_tree() -> void:
@@ -46,12 +43,9 @@ func _enter_tree() -> void:
 	EditorInterface.get_base_control().add_child(_bake_dialog)
 	_table_inspector = TableInspector.new(_bakes)
 	add_inspector_plugin(_table_inspector)
-<<<<<<< /root/proj-editor/addons/lobelight/editor/plugin.gd
 	_importers = [PanoramaImporter.new(), MeasuredImporter.new()]
 	for importer in _importers:
 		add_import_plugin(importer)
-=======
->>>>>>> /root/edm/new
 
 
 func _exit_tree() -> void:
@@ -66,12 +60,9 @@ func _exit_tree() -> void:
 	_tangent_warning = null
 	remove_inspector_plugin(_table_inspector)
 	_table_inspector = null
-<<<<<<< /root/proj-editor/addons/lobelight/editor/plugin.gd
 	for importer in _importers:
 		remove_import_plugin(importer)
 	_importers.clear()
-=======
->>>>>>> /root/edm/new
 	_bake_dialog.queue_free()
 	# A bake under way stops before the queue is gone.
 	_bakes.stop()
