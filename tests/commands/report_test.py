@@ -147,6 +147,15 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual((row["toral8"], row["above"], row["as_high"]), ((0.47, 29.0), False, False))
 
 
+    def test_quartiles_are_of_the_rounds_ratios(self):
+        """Rounds that slow everybody down alike leave no spread."""
+        made = entry(ISOTROPIC, USUAL)
+        self.assertEqual([round(v, 6) for v in analysis.ratio_range(made, "fis40")], [3.3, 3.3])
+        made["methods"]["fis40"]["gpu_ms_rounds"] = [3.0, 8.0, 5.0]
+        self.assertEqual([round(v, 6) for v in analysis.ratio_range(made, "fis40")], [3.5, 4.5])
+        self.assertIsNone(analysis.ratio_range(made, "reference"))
+
+
 class CasesTest(unittest.TestCase):
     def test_cases_are_told_apart(self):
         for plan in (cases.full(given_maps=("own",)), cases.quick(), cases.on_gpu()):

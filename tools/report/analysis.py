@@ -9,6 +9,7 @@ import math
 
 import cases
 import metrics
+import numpy as np
 
 # Of FIS 40's time, in one run.
 MOST_OF_FIS_TIME = 1.0 / 3.0
@@ -126,6 +127,13 @@ def time_ratio(entry, method, baseline):
     """Median over the rounds of a method's GPU time over another's; None where either was not measured."""
     rounds = [entry["methods"].get(name, {}).get("gpu_ms_rounds", []) for name in (method, baseline)]
     return metrics.median_ratio(*rounds)
+
+
+def ratio_range(entry, method, baseline=cases.BASELINE):
+    """Lower and upper quartile of the rounds' ratios; None where either was not measured."""
+    rounds = [entry["methods"].get(name, {}).get("gpu_ms_rounds", []) for name in (method, baseline)]
+    ratios = sorted(time / base for time, base in zip(*rounds) if base > 0)
+    return tuple(np.quantile(ratios, (0.25, 0.75))) if ratios else None
 
 
 def goal_materials():

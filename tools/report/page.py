@@ -9,12 +9,16 @@ import document as doc
 from analysis import Place
 
 
+def number(value, digits):
+    return "–" if value is None else f"{value:.{digits}f}"
+
+
 def decibels(value):
-    return "–" if value is None else f"{value:.1f}"
+    return number(value, 1)
 
 
 def ratio(value):
-    return "–" if value is None else f"{value:.2f}"
+    return number(value, 2)
 
 
 def joined(words):

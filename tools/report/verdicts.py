@@ -4,7 +4,7 @@ import analysis
 import cases
 import document as doc
 import figures
-from page import decibels, entries_of, joined, plain, ratio, source_of
+from page import decibels, entries_of, joined, number, plain, ratio, source_of
 
 TITLE = "Error against run time"
 OTHER_REPORTS = {
@@ -266,7 +266,8 @@ def methods(page):
 
 def everything(page):
     page.heading("All figures with the usual settings")
-    head = ["method", "fetches", "probes", "table fetches", "PSNR, dB", "FLIP", "rel. RMSE", "GPU ms", f"over {cases.BASELINE}"]
+    head = ["method", "fetches", "probes", "table fetches", "PSNR, dB", "FLIP", "rel. RMSE"]
+    head += ["GPU ms", f"over {cases.BASELINE}", "quartiles"]
     for place in analysis.places(page.entries):
         entry = analysis.find(page.entries, place)
         rows = [
@@ -275,11 +276,12 @@ def everything(page):
                 str(own["fetches"]),
                 f"{own['probes']:g}",
                 str(own["table_fetches"]),
-                "–" if own["psnr"] is None else f"{own['psnr']:.2f}",
-                f"{own['flip']:.4f}",
-                f"{own['relative_rmse']:.4f}",
-                "–" if own["gpu_ms"] is None else f"{own['gpu_ms']:.3f}",
+                number(own["psnr"], 2),
+                number(own["flip"], 4),
+                number(own["relative_rmse"], 4),
+                number(own["gpu_ms"], 3),
                 ratio(own["gpu_ms_ratio"]),
+                "–".join(f"{value:.2f}" for value in analysis.ratio_range(entry, method) or ()),
             ]
             for method, own in entry["methods"].items()
         ]
