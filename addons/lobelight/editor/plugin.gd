@@ -2,9 +2,9 @@
 extends EditorPlugin
 ## The editor's side of Lobelight.
 ##
-## The types of the run time register themselves by their class names, and the
-## baker by the native library; what is added here are conversions of materials, and a warning about
-## meshes that lack tangents.
+## The types of the run time register themselves by their class names, and the baker by the native
+## library. What is added here: inspectors with bakes, plots and warnings, importers, conversions of
+## materials, a menu for scenes, and the filter of exports.
 
 const BakeDialog := preload("bake/bake_dialog.gd")
 const BakeQueue := preload("bake/bake_queue.gd")
@@ -15,6 +15,8 @@ const PanoramaImporter := preload("import/panorama_importer.gd")
 const SceneConversionMenu := preload("scene_conversion_menu.gd")
 const TableInspector := preload("bake/table_inspector.gd")
 const TangentWarning := preload("tangent_warning.gd")
+const ToolsMenu := preload("menu/tools_menu.gd")
+const WarningInspector := preload("warnings/warning_inspector.gd")
 
 var _export_plugin: ExportPlugin
 var _conversions: Array[MaterialConversionPlugin] = []
@@ -24,6 +26,8 @@ var _bakes: BakeQueue
 var _bake_dialog: BakeDialog
 var _table_inspector: TableInspector
 var _importers: Array[EditorImportPlugin] = []
+var _warning_inspector: WarningInspector
+var _tools_menu: ToolsMenu
 
 
 func _enter_tree() -> void:
@@ -46,6 +50,10 @@ func _enter_tree() -> void:
 	_importers = [PanoramaImporter.new(), MeasuredImporter.new()]
 	for importer in _importers:
 		add_import_plugin(importer)
+	_warning_inspector = WarningInspector.new()
+	add_inspector_plugin(_warning_inspector)
+	_tools_menu = ToolsMenu.new(_bakes, _scene_menu)
+	add_tool_submenu_item(ToolsMenu.TITLE, _tools_menu)
 
 
 func _exit_tree() -> void:
@@ -60,6 +68,10 @@ func _exit_tree() -> void:
 	_tangent_warning = null
 	remove_inspector_plugin(_table_inspector)
 	_table_inspector = null
+	remove_inspector_plugin(_warning_inspector)
+	_warning_inspector = null
+	# It is freed with its item.
+	remove_tool_menu_item(ToolsMenu.TITLE)
 	for importer in _importers:
 		remove_import_plugin(importer)
 	_importers.clear()
@@ -67,6 +79,11 @@ func _exit_tree() -> void:
 	# A bake under way stops before the queue is gone.
 	_bakes.stop()
 	_bakes.queue_free()
+
+
+## Project > Tools > Lobelight.
+func get_tools_menu() -> ToolsMenu:
+	return _tools_menu
 
 
 ## The bakes under way.

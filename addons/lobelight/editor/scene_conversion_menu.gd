@@ -15,7 +15,7 @@ func _init(undo_redo: EditorUndoRedoManager = null) -> void:
 
 
 func _popup_menu(_paths: PackedStringArray) -> void:
-	add_context_menu_item("Convert Materials to LobeMaterial3D", _convert_nodes)
+	add_context_menu_item("Convert Materials to LobeMaterial3D", convert_nodes)
 
 
 ## The changes to make, in order: [code][node, property, new material][/code]. What several nodes
@@ -61,7 +61,8 @@ static func _find_materials(node: Node) -> Array[Array]:
 	return found
 
 
-func _convert_nodes(nodes: Array) -> void:
+## Converts the materials of nodes and of those below them, by one action that can be undone.
+func convert_nodes(nodes: Array) -> void:
 	var roots: Array[Node] = []
 	roots.assign(nodes)
 	var changes := find_changes(roots)

@@ -65,6 +65,8 @@ func _run() -> void:
 		runner.add_error("after the last suite", error)
 	if JUnitReport.write(REPORT, runner.results) != OK:
 		runner.add_error(REPORT, "cannot be written")
+	# The engine warns of a scan that it has to break off.
+	await _wait_for_files()
 	_end(runner)
 
 

@@ -1,0 +1,74 @@
+@tool
+extends Object
+## What a scene uses of Lobelight and what that costs, in words.
+
+const SceneUsage := preload("scene_usage.gd")
+const SceneWarnings := preload("../warnings/scene_warnings.gd")
+
+# A half-float cube map with all its levels: 6 · 8 bytes a texel and a third more.
+const _CUBE_BYTES := 64.0
+
+
+static func describe(root: Node) -> String:
+	if root == null:
+		return "No scene is open."
+	var usage: SceneUsage = SceneUsage.of(root)
+	var lines: PackedStringArray = []
+	lines.append("Materials: %d" % usage.materials.size())
+	for material in usage.materials:
+		lines.append("  " + _describe_material(material, usage.materials[material]))
+	lines.append("Tables of their own: %d" % usage.tables.size())
+	for table in usage.tables:
+		lines.append("  " + describe_table(table))
+	lines.append("Environments: %d" % usage.environments.size())
+	for environment in usage.environments:
+		lines.append("  " + _describe_environment(environment, root))
+	var warnings := SceneWarnings.of_scene(root)
+	if not warnings.is_empty():
+		lines.append("To be looked at:")
+		for warning in warnings:
+			lines.append("  " + warning)
+	return "\n".join(lines)
+
+
+static func describe_table(table: LobeTable) -> String:
+	var problem := table.get_problem()
+	if problem:
+		return "%s: %s" % [_name(table), problem]
+	return (
+		"%s: %s (%s, %s), %d lobes, %s"
+		% [
+			_name(table),
+			table.brdf,
+			String.num(table.alpha.x, 4),
+			String.num(table.alpha.y, 4),
+			table.lobe_count,
+			String.humanize_size(table.image.get_data().size()),
+		]
+	)
+
+
+static func _describe_material(material: LobeMaterial3D, nodes: Array) -> String:
+	var fetches := material.get_fetches()
+	return (
+		"%s: %d fetches of the environment and %d of tables a pixel, on %d nodes"
+		% [_name(material), fetches["environment"], fetches["table"], nodes.size()]
+	)
+
+
+static func _describe_environment(environment: LobeEnvironment3D, root: Node) -> String:
+	var source: String = LobeEnvironment3D.Source.find_key(environment.source)
+	var cube := environment.get_cubemap()
+	var memory := "no light yet"
+	if cube != null:
+		var bytes := int(_CUBE_BYTES * cube.get_width() * cube.get_width())
+		memory = "%d texels, %s" % [cube.get_width(), String.humanize_size(bytes)]
+	return "%s: %s, %s" % [root.get_path_to(environment), source.to_lower(), memory]
+
+
+static func _name(resource: Resource) -> String:
+	if not resource.resource_name.is_empty():
+		return resource.resource_name
+	if resource.resource_path.is_empty():
+		return "unnamed"
+	return resource.resource_path.get_file()

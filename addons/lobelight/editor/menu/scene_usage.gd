@@ -1,0 +1,56 @@
+@tool
+extends RefCounted
+## What a scene has of Lobelight: its materials, their tables, and its environments.
+
+const TangentWarning := preload("../tangent_warning.gd")
+
+## The materials, and the nodes that show them.
+var materials: Dictionary[LobeMaterial3D, Array] = {}
+var tables: Array[LobeTable] = []
+var environments: Array[LobeEnvironment3D] = []
+## Nodes whose meshes lack the tangents that their materials need.
+var without_tangents: Array[MeshInstance3D] = []
+
+
+## Looks at a node and all below it.
+static func of(root: Node) -> RefCounted:
+	var usage := new()
+	if root != null:
+		usage._look_at(root)
+	return usage
+
+
+func _look_at(node: Node) -> void:
+	if node is LobeEnvironment3D:
+		environments.append(node)
+	for material in find_materials(node):
+		if not materials.has(material):
+			materials[material] = []
+		materials[material].append(node)
+		if material.table != null and material.table not in tables:
+			tables.append(material.table)
+	var instance := node as MeshInstance3D
+	if instance != null and not TangentWarning.find_surfaces(instance).is_empty():
+		without_tangents.append(instance)
+	for child in node.get_children():
+		_look_at(child)
+
+
+## The LobeMaterial3Ds that a node is drawn with.
+static func find_materials(node: Node) -> Array[LobeMaterial3D]:
+	var found: Array[LobeMaterial3D] = []
+	var candidates: Array[Material] = []
+	var geometry := node as GeometryInstance3D
+	if geometry != null:
+		candidates = [geometry.material_override, geometry.material_overlay]
+	var instance := node as MeshInstance3D
+	if instance != null and instance.mesh != null:
+		for surface in instance.mesh.get_surface_count():
+			candidates.append(instance.get_active_material(surface))
+	elif geometry != null and "material" in node:
+		# CSG shapes.
+		candidates.append(node.get("material"))
+	for material in candidates:
+		if material is LobeMaterial3D and material not in found:
+			found.append(material)
+	return found

@@ -1,0 +1,81 @@
+@tool
+extends PopupMenu
+## Project > Tools > Lobelight: what concerns a whole scene.
+
+enum Item { BAKE, REPORT, CONVERT }
+
+const BakeQueue := preload("../bake/bake_queue.gd")
+const Recipe := preload("../bake/bake_recipe.gd")
+const SceneConversionMenu := preload("../scene_conversion_menu.gd")
+const SceneReport := preload("scene_report.gd")
+const SceneUsage := preload("scene_usage.gd")
+
+const TITLE := "Lobelight"
+
+var _queue: BakeQueue
+var _conversion: SceneConversionMenu
+var _dialog: AcceptDialog
+var _text: TextEdit
+
+
+func _init(queue: BakeQueue = null, conversion: SceneConversionMenu = null) -> void:
+	_queue = queue
+	_conversion = conversion
+	name = TITLE
+	add_item("Bake All Tables in This Scene", Item.BAKE)
+	add_item("Report What This Scene Uses …", Item.REPORT)
+	add_item("Convert Materials of This Scene to LobeMaterial3D", Item.CONVERT)
+	id_pressed.connect(choose)
+
+
+## Does what an item says.
+func choose(item: int) -> void:
+	var root := EditorInterface.get_edited_scene_root()
+	match item:
+		Item.BAKE:
+			var count := bake_all(root)
+			_say(
+				"%d tables are being baked." % count if count > 0 else "No table to be baked here."
+			)
+		Item.REPORT:
+			_show_report(SceneReport.describe(root))
+		Item.CONVERT:
+			if root != null:
+				_conversion.convert_nodes([root])
+
+
+## Bakes the tables of the scene's materials of which it is known what from; how many these are.
+func bake_all(root: Node) -> int:
+	var count := 0
+	var usage: SceneUsage = SceneUsage.of(root)
+	for table in usage.tables:
+		if can_bake(table):
+			_queue.add(table, Recipe.from_table(table))
+			count += 1
+	return count
+
+
+## Whether it is known what the table was baked from. Imported ones are baked by their importer.
+static func can_bake(table: LobeTable) -> bool:
+	if table.resource_path.get_extension() in Recipe.MEASURED_EXTENSIONS:
+		return false
+	var recipe: Recipe = Recipe.from_table(table)
+	var is_known := table.has_meta(Recipe.META) or table.brdf in Recipe.MODELS
+	return is_known and recipe.get_problem().is_empty()
+
+
+func _say(message: String) -> void:
+	EditorInterface.get_editor_toaster().push_toast(message)
+
+
+func _show_report(report: String) -> void:
+	if _dialog == null:
+		_dialog = AcceptDialog.new()
+		_dialog.title = "What This Scene Uses"
+		_text = TextEdit.new()
+		_text.editable = false
+		_text.custom_minimum_size = Vector2(640, 320) * EditorInterface.get_editor_scale()
+		_dialog.add_child(_text)
+		add_child(_dialog)
+	_text.text = report
+	_dialog.popup_centered()

@@ -1,0 +1,29 @@
+@tool
+extends HBoxContainer
+## Spheres from smooth to rough, and a brushed one, in the light that materials show at the moment.
+
+const SphereView := preload("sphere_view.gd")
+
+## Roughness and anisotropy.
+const SPHERES: Array[Vector2] = [Vector2(0.1, 0.0), Vector2(0.4, 0.0), Vector2(0.4, 0.95)]
+
+
+func _init() -> void:
+	tooltip_text = "Metal in the environment's light: smooth, rough, and brushed."
+	for look in SPHERES:
+		var sphere := SphereView.new()
+		var material := LobeMaterial3D.new()
+		material.roughness = look.x
+		material.anisotropy = look.y
+		sphere.material_3d = material
+		sphere.mouse_filter = Control.MOUSE_FILTER_PASS
+		add_child(sphere)
+
+
+func _enter_tree() -> void:
+	for sphere: Control in get_children():
+		sphere.set_deferred(&"custom_minimum_size", Vector2(1, 1) * _get_side())
+
+
+static func _get_side() -> float:
+	return 72.0 * EditorInterface.get_editor_scale()

@@ -1,0 +1,119 @@
+@tool
+extends GdUnitTestSuite
+## Warnings about scenes, and the menu for them, in the running editor.
+
+const BakeQueue := preload("res://addons/lobelight/editor/bake/bake_queue.gd")
+const Kit := preload("res://tests/editor/editor_kit.gd")
+const Recipe := preload("res://addons/lobelight/editor/bake/bake_recipe.gd")
+const SceneReport := preload("res://addons/lobelight/editor/menu/scene_report.gd")
+const SceneUsage := preload("res://addons/lobelight/editor/menu/scene_usage.gd")
+const SceneWarnings := preload("res://addons/lobelight/editor/warnings/scene_warnings.gd")
+const ToolsMenu := preload("res://addons/lobelight/editor/menu/tools_menu.gd")
+const WarningList := preload("res://addons/lobelight/editor/warnings/warning_list.gd")
+
+
+# A sphere with a material that has a table of its own.
+func _make_scene() -> Node3D:
+	var root: Node3D = auto_free(Node3D.new())
+	var sphere := MeshInstance3D.new()
+	sphere.mesh = SphereMesh.new()
+	var material := LobeMaterial3D.new()
+	material.resource_name = "steel"
+	material.table = LobeTable.new()
+	sphere.material_override = material
+	root.add_child(sphere)
+	return root
+
+
+func _add_sky(root: Node) -> void:
+	var world := WorldEnvironment.new()
+	world.environment = Environment.new()
+	world.environment.background_mode = Environment.BG_SKY
+	world.environment.sky = Sky.new()
+	root.add_child(world)
+
+
+func test_a_scene_without_an_environment_is_told_so() -> void:
+	var root := _make_scene()
+	assert_str("\n".join(SceneWarnings.of_scene(root))).contains("has no LobeEnvironment3D")
+	var environment := LobeEnvironment3D.new()
+	root.add_child(environment)
+	var text := "\n".join(SceneWarnings.of_scene(root))
+	assert_str(text).not_contains("has no LobeEnvironment3D")
+	assert_str(text).contains("has no sky")
+	_add_sky(root)
+	assert_array(SceneWarnings.of_environment(environment, root)).is_empty()
+
+
+func test_a_table_without_lobes_is_told_so() -> void:
+	var root := _make_scene()
+	var material: LobeMaterial3D = (root.get_child(0) as MeshInstance3D).material_override
+	var text := "\n".join(SceneWarnings.of_material(material, null))
+	assert_str(text).contains("press Bake")
+	material.table = LobeTable.make_single_lobe()
+	assert_array(SceneWarnings.of_material(material, null)).is_empty()
+
+
+func test_poor_panoramas_are_told_so() -> void:
+	var environment: LobeEnvironment3D = auto_free(LobeEnvironment3D.new())
+	var image := Image.create_empty(64, 32, false, Image.FORMAT_RGB8)
+	environment.panorama = ImageTexture.create_from_image(image)
+	var text := "\n".join(SceneWarnings.of_environment(environment, null))
+	assert_str(text).contains("only 64 texels")
+	assert_str(text).contains("no values above 1")
+	image = Image.create_empty(1024, 512, false, Image.FORMAT_RGBAH)
+	environment.panorama = ImageTexture.create_from_image(image)
+	assert_array(SceneWarnings.of_environment(environment, null)).is_empty()
+
+
+func test_warnings_are_in_the_inspector() -> void:
+	Kit.get_plugin(get_tree())
+	var material := LobeMaterial3D.new()
+	material.table = LobeTable.new()
+	EditorInterface.inspect_object(material)
+	await await_idle_frame()
+	await await_idle_frame()
+	var lists := Kit.find_all(EditorInterface.get_inspector(), WarningList)
+	assert_int(lists.size()).is_equal(1)
+	var list: WarningList = lists[0]
+	assert_str("\n".join(list.get_warnings())).contains("press Bake")
+	EditorInterface.inspect_object(null)
+	await await_idle_frame()
+
+
+func test_the_report_names_what_the_scene_uses() -> void:
+	var root := _make_scene()
+	root.add_child(LobeEnvironment3D.new())
+	var report := SceneReport.describe(root)
+	assert_str(report).contains("Materials: 1")
+	assert_str(report).contains("steel: 1 fetches of the environment")
+	assert_str(report).contains("on 1 nodes")
+	assert_str(report).contains("Environments: 1")
+	assert_str(report).contains("To be looked at:")
+	assert_str(SceneReport.describe(null)).is_equal("No scene is open.")
+
+
+func test_all_tables_of_a_scene_are_baked() -> void:
+	var plugin := Kit.get_plugin(get_tree())
+	var bakes: BakeQueue = plugin.get_bakes()
+	var menu: ToolsMenu = plugin.get_tools_menu()
+	var root := _make_scene()
+	var usage: SceneUsage = SceneUsage.of(root)
+	var table := usage.tables[0]
+	# Of an empty table nothing is known.
+	assert_int(menu.bake_all(root)).is_equal(0)
+	var recipe := Recipe.new()
+	recipe.alpha = Vector2(0.3, 0.3)
+	recipe.lobes = 2
+	table.set_meta(Recipe.META, recipe.to_dictionary())
+	assert_int(menu.bake_all(root)).is_equal(1)
+	var is_over := func() -> bool: return not bakes.is_baking(table)
+	assert_bool(await Kit.wait_until(get_tree(), is_over)).is_true()
+	assert_int(table.lobe_count).is_equal(2)
+
+
+func test_the_menu_is_under_tools_once() -> void:
+	Kit.get_plugin(get_tree())
+	var menus := Kit.find_all(EditorInterface.get_base_control(), ToolsMenu)
+	assert_int(menus.size()).is_equal(1)
+	assert_int((menus[0] as PopupMenu).item_count).is_equal(3)
