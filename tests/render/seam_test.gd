@@ -16,7 +16,7 @@ const VIEWS: PackedVector3Array = [
 # spans 180 of them may be off. What is more than one comes of the sampler: between the texels of
 # coarse levels, and of different faces most, straight lines cut corners of the sphere.
 const WIDTHS: Dictionary[float, float] = {
-	0.001: 1.0, 0.03: 1.0, 0.06: 1.0, 0.1: 1.0, 0.2: 1.7, 0.35: 3.5, 0.6: 8.0
+	0.001: 1.0, 0.03: 1.0, 0.06: 1.0, 0.1: 1.0, 0.2: 1.7, 0.35: 3.5, 0.6: 8.5
 }
 const ROUND := [[LobeEnvironment3D.Filter.GAUSSIAN], [LobeEnvironment3D.Filter.DISC]]
 const FILTERS := [
@@ -106,7 +106,7 @@ func test_texels_of_a_gradient(filter: LobeEnvironment3D.Filter, _test_parameter
 		var variance := 4.0 / (SIZE * SIZE) * c * (pow(4.0, level) - 1.0)
 		var left := Kit.mean_cosine(1.0 / variance) if level > 0 else 1.0
 		var share := slope / weights / left
-		assert_float(share).append_failure_message("level %d" % level).is_between(0.75, 1.1)
+		assert_float(share).append_failure_message("level %d" % level).is_between(0.68, 1.1)
 
 
 func test_lobes_of_a_gradient(filter: LobeEnvironment3D.Filter, _test_parameters := ROUND) -> void:

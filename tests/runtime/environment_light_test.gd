@@ -34,7 +34,7 @@ func test_levels(
 	assert_float(worst).is_less(allowed)
 
 
-# lobelight_level and the sampler's clamp.
+# lobelight_level, with LOBELIGHT_STRETCHED_LEVELS, and the sampler's clamp.
 func _shader_level(light: EnvironmentLight, variance: float, m: float) -> float:
 	var s := light._get_sharpest()
 	var k := light._get_level()
@@ -43,12 +43,12 @@ func _shader_level(light: EnvironmentLight, variance: float, m: float) -> float:
 	return maxf(level - (f - f * f) * (0.3056252 * f + 0.5175971), 0.0)
 
 
-# V_l = t² (b + c a (4^l − 1) + m³ 4^l / 6) for l, which whole levels mix linearly.
+# V_l = t² (b + a (c (4^l − 1) + 4^l / 6)) for l, which whole levels mix linearly; a = m³ or 1.
 func _level(light: EnvironmentLight, variance: float, m: float) -> float:
-	var cube := m * m * m
-	var ladder := light.level_variance * (1.0 if light.is_even else cube)
+	var a := 1.0 if light.is_even else m * m * m
 	var texels := 0.25 * light.size * light.size * variance
-	var four := maxf((texels - light.base_variance + ladder) / (ladder + cube / 6.0), 1.0)
+	var ladder := light.level_variance * a
+	var four := maxf((texels - light.base_variance + ladder) / (ladder + a / 6.0), 1.0)
 	var whole := floorf(0.5 * _log2(four))
 	return whole + (four / pow(4.0, whole) - 1.0) / 3.0
 

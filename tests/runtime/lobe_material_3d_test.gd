@@ -17,6 +17,7 @@ const FEATURES: PackedStringArray = [
 	"UV_TRANSFORM",
 	"VERTEX_COLOUR",
 ]
+const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
 const LightRegistry := preload("res://addons/lobelight/runtime/light_registry.gd")
 
 
@@ -62,6 +63,25 @@ func test_variants_follow_the_properties() -> void:
 		assert_str(material.get_shader_code()).contains("#define LOBELIGHT_" + feature)
 	material.emission_energy = 0.0
 	assert_bool("EMISSION" in material.get_shader_code()).is_false()
+
+
+func test_levels_of_texels_have_a_variant_of_their_own() -> void:
+	var material := LobeMaterial3D.new()
+	await get_tree().process_frame
+	var define := "#define LOBELIGHT_STRETCHED_LEVELS\n"
+	assert_str(material.get_shader_code()).not_contains(define)
+	var shader := material._shader
+	for is_even: bool in [false, true]:
+		var light := EnvironmentLight.new()
+		light.cubemap = Cubemap.new()
+		light.is_even = is_even
+		LightRegistry.offer(get_instance_id(), light)
+		await get_tree().process_frame
+		# The material that is there takes the other variant, and new ones have it from the start.
+		assert_bool(material._shader == shader).is_equal(is_even)
+		assert_bool(material._shader.code.contains(define)).is_equal(not is_even)
+		assert_bool(LobeMaterial3D.new().get_shader_code().contains(define)).is_equal(not is_even)
+	LightRegistry.withdraw(get_instance_id())
 
 
 func test_incomplete_tables_are_stood_in_for() -> void:

@@ -13,7 +13,8 @@ var size := 1
 var level_variance := 1.0 / 12.0
 ## How much level 0 is blurred: b in shaders/environment.gdshaderinc.
 var base_variance := 0.0
-## Whether they blur alike in all directions, rather than as the texels of the cube are stretched.
+## Whether they blur alike in all directions, rather than as the texels of the cube are stretched;
+## if not, materials need LOBELIGHT_STRETCHED_LEVELS.
 var is_even := false
 ## From the environment to the world; orthonormal.
 var rotation := Basis.IDENTITY
@@ -37,7 +38,7 @@ func apply_placement(material: RID) -> void:
 	server.material_set_param(material, &"lobelight_environment_energy", energy)
 
 
-# Of the formula in shaders/environment.gdshaderinc, s: a line through its ends.
+# Of the formula in shaders/environment.gdshaderinc, s; of stretched levels a line through its ends.
 func _get_sharpest() -> Vector2:
 	var texel := 4.0 / (size * size)
 	var slope := 0.0
@@ -46,8 +47,10 @@ func _get_sharpest() -> Vector2:
 	return texel * Vector2(level_variance - base_variance - slope, slope)
 
 
-# Of the same, k: a parabola through its ends and its middle.
+# Of the same, k; of stretched levels a parabola through its ends and its middle.
 func _get_level() -> Vector3:
+	if is_even:
+		return Vector3(_get_level_at(1.0), 0.0, 0.0)
 	var middle := 0.5 * (_LEAST_COMPONENT + 1.0)
 	var first := _get_level_at(_LEAST_COMPONENT)
 	var last := _get_level_at(1.0)
@@ -60,6 +63,5 @@ func _get_level() -> Vector3:
 
 
 func _get_level_at(component: float) -> float:
-	var cube := pow(component, 3.0)
-	var texel := 4.0 / (size * size) * (level_variance * (1.0 if is_even else cube) + cube / 6.0)
-	return -0.5 * log(texel) / log(2.0)
+	var texel := 4.0 / (size * size) * pow(component, 3.0)
+	return -0.5 * log(texel * (level_variance + 1.0 / 6.0)) / log(2.0)

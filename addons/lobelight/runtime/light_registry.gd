@@ -10,17 +10,25 @@ const NeutralLight := preload("neutral_light.gd")
 
 # Resources may be created and freed on loader threads.
 static var _mutex := Mutex.new()
-static var _materials: Dictionary[RID, bool] = {}
+# What asks each of them for another variant of its shader; this keeps no material alive either.
+static var _materials: Dictionary[RID, Callable] = {}
 # By the instance id of who offers it, in the order of the offers.
 static var _lights: Dictionary[int, EnvironmentLight] = {}
 # Made when the first material comes, dropped with the last one.
 static var _neutral: EnvironmentLight
+static var _has_stretched_levels := false
 
 
-## From now on the material shows the current light.
-static func add_material(material: RID) -> void:
+## Whether shaders need LOBELIGHT_STRETCHED_LEVELS for the current light.
+static func has_stretched_levels() -> bool:
+	return _has_stretched_levels
+
+
+## From now on the material shows the current light. [param other_variant] is called when
+## [method has_stretched_levels] has changed.
+static func add_material(material: RID, other_variant: Callable) -> void:
 	_mutex.lock()
-	_materials[material] = true
+	_materials[material] = other_variant
 	_current().apply(material)
 	_mutex.unlock()
 
@@ -70,8 +78,13 @@ static func _current() -> EnvironmentLight:
 
 
 static func _apply_to_all() -> void:
-	if _materials.is_empty():
+	if _materials.is_empty() and _lights.is_empty():
+		_has_stretched_levels = false
 		return
 	var light := _current()
+	var has_changed := _has_stretched_levels == light.is_even
+	_has_stretched_levels = not light.is_even
 	for material: RID in _materials:
 		light.apply(material)
+		if has_changed:
+			_materials[material].call_deferred()

@@ -352,7 +352,7 @@ static func get_losses_from(source: BaseMaterial3D) -> PackedStringArray:
 
 
 func _init() -> void:
-	LightRegistry.add_material(_rid)
+	LightRegistry.add_material(_rid, _queue_update)
 	MaterialParameters.set_albedo(self)
 	_queue_update()
 

@@ -2,6 +2,7 @@
 extends Object
 ## The shader variant of a [LobeMaterial3D]: its render modes and defines.
 
+const LightRegistry := preload("light_registry.gd")
 const TableChoice := preload("table_choice.gd")
 
 const _BLEND_MODES: PackedStringArray = [
@@ -92,6 +93,8 @@ static func _defines(material: LobeMaterial3D, choice: TableChoice) -> PackedStr
 		defines.append("COMPENSATED")
 	if is_dielectric(material):
 		defines.append("DIELECTRIC")
+	if LightRegistry.has_stretched_levels():
+		defines.append("STRETCHED_LEVELS")
 	if choice.coat != null:
 		defines.append("COAT_LOBES %d" % choice.coat.lobe_count)
 	if emits(material):

@@ -24,8 +24,10 @@ static func make() -> EnvironmentLight:
 		faces.append(_make_face(face))
 	light.cubemap.create_from_images(faces)
 	light.size = SIZE
-	# generate_mipmaps takes 2 × 2 means.
+	# generate_mipmaps takes 2 × 2 means. Their texels shrink towards the corners of the cube, which
+	# in light as soft as this does not show.
 	light.level_variance = Pyramid.LEVEL_VARIANCES[Pyramid.Filter.BOX]
+	light.is_even = true
 	return light
 
 

@@ -29,6 +29,8 @@ const ROWS := 2
 const _MAX_SAMPLES := 8
 # Between levels that blur by four times the variance of one another, and sharpness.
 const _BASE_SHARE := 0.5
+# The variance of the tent by which levels are looked up, in texels.
+const _TENT_VARIANCE := 1.0 / 6.0
 # Along the diameter of the kernel that level 0 is blurred with.
 const _KERNEL_SAMPLES := 8
 # Formats that hold linear light; the others hold sRGB.
@@ -104,6 +106,7 @@ func set_up_panorama(
 		&"face_size": face_size,
 		&"samples": samples if level_0_variance == 0.0 else _KERNEL_SAMPLES,
 		&"kernel_variance": level_0_variance,
+		&"shrinking_variance": _TENT_VARIANCE,
 		&"is_gaussian": used_filter == Filter.GAUSSIAN,
 	}
 	_set_up_levels(face_size, used_filter, PanoramaShader, parameters)
@@ -136,7 +139,9 @@ func _set_up_levels(
 			&"finer": levels.back().get_texture(), &"face_size": level_size
 		}
 		if is_round(filter):
+			var finer_is_blurred := levels.size() > 1 or level_0_variance > 0.0
 			level[&"kernel_variance"] = 3.0 * LEVEL_VARIANCES[filter]
+			level[&"shrinking_variance"] = (3.0 if finer_is_blurred else 4.0) * _TENT_VARIANCE
 			level[&"is_gaussian"] = filter == Filter.GAUSSIAN
 			_add_level(level_size, RoundShader, level)
 		else:

@@ -13,10 +13,6 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kReach = 12.0;
 constexpr double kFloor = 1e-4;
 
-// V_l at texels of width 1: a third of the discs' variance per axis, and the tent's at the mean of
-// m³ over the sphere, (6 / 4π) ∫∫ (1 + u² + v²)⁻³ du dv over a face.
-constexpr double kLadder = 5.0 / 6.0 + 0.599 / 6.0;
-
 // The part of K within t = 4 / variance, where the sphere ends.
 double mass_on_sphere(double variance) {
   const double end = 4.0 / variance;
@@ -38,8 +34,7 @@ KernelValue pyramid_kernel(double t) {
 }
 
 PyramidLevels pyramid_levels(double variance) {
-  const double level = std::floor(0.5 * std::log2(variance / kLadder));
-  const double finer = kLadder * std::exp2(2.0 * level);
+  const double finer = std::exp2(2.0 * std::floor(0.5 * std::log2(variance)));
   // Rounding may put a level's own variance on either side of it.
   return {finer, std::clamp((variance / finer - 1.0) / 3.0, 0.0, 1.0)};
 }

@@ -4,11 +4,10 @@
 // made by discs, looked up at the level of that variance (the addon's
 // runtime/shaders/environment.gdshaderinc and pyramid_round.gdshader).
 //
-// Level l blurs by V_l = (5/6 + m³/6) · (2 · 2^l / S)² per axis and a little less at the finest
-// levels: faces have S texels a side, a power of two, so that all sizes share one ladder of
-// variances up to m³, which depends on the direction and is 0.6 on average. Between two levels the
-// sampler mixes linearly: V is drawn as (1 − f) K(V_l) + f K(4 V_l), V = (1 − f) V_l + f · 4 V_l.
-// All levels have the same kernel K but for its width.
+// Level l blurs by V_l = (2 · 2^l / S)² per axis and a little less at the finest levels: faces have
+// S texels a side, a power of two, so that all sizes share one ladder of variances. Between two
+// levels the sampler mixes linearly: V is drawn as (1 − f) K(V_l) + f K(4 V_l),
+// V = (1 − f) V_l + f · 4 V_l. All levels have the same kernel K but for its width.
 
 namespace lobelight {
 
