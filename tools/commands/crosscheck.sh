@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# compares the reference integrator with SciPy's quadrature and with Mitsuba 3 ([--small] [--env X.exr]… [--json FILE])
+# compares the reference integrator with SciPy's quadrature and with Mitsuba 3 ([--small] [--only CHECK,…] [--env X.exr]… [--json FILE])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 # Mitsuba compiles through LLVM; what Debian bookworm's default, 14, and 15 make of its code does not run.

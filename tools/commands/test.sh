@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands export cost accuracy renderers render); [--json FILE]
+# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers render); [--json FILE]
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/gdunit.sh
 source "$ROOT/tools/lib/gdunit.sh"
 # shellcheck source=tools/testing/runners.sh
 source "$ROOT/tools/testing/runners.sh"
 
-GROUPS_OF_TESTS=(lint harness standin cpp stability native runtime editor demo commands export cost accuracy renderers render)
+GROUPS_OF_TESTS=(lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers render)
 
 usage() {
   cat <<USAGE

@@ -109,6 +109,12 @@ run_export() {
   judge export-android
 }
 
+# The reference integrator against Mitsuba 3, small.
+run_crosscheck() {
+  run_logged crosscheck in_time bash "$ROOT/tools/commands/crosscheck.sh" --small --only mitsuba,teapot
+  judge crosscheck
+}
+
 # What ./dev compare finds, against the project's bounds.
 run_accuracy() {
   need_import

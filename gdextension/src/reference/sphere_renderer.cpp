@@ -1,13 +1,12 @@
 #include "reference/sphere_renderer.h"
 
-#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
-#include "base/parallel.h"
-#include "reference/sobol.h"
+#include "reference/surface_renderer.h"
 
 namespace lobelight {
 namespace {
@@ -43,34 +42,12 @@ std::optional<SurfaceFrame> sphere_frame(int column, int row, int size) {
 SphereImage render_sphere(const Panorama& panorama, const Brdf& brdf, const SphereOptions& options,
                           Progress& progress) {
   validate(options);
-  const Integrator integrator(panorama, brdf, options.samples);
-  const std::size_t size = static_cast<std::size_t>(options.size);
-  SphereImage image;
-  image.size = options.size;
-  image.radiance.resize(3 * size * size);
-  image.standard_error.resize(3 * size * size);
-
-  const glm::dvec3 view(0.0, 0.0, 1.0);
-  std::atomic<int> finished_rows{0};
-  progress.set(0.0);
-  parallel_for(size, options.threads, [&](std::size_t row) {
-    for (std::size_t column = 0; column < size; ++column) {
-      progress.throw_if_cancelled();
-      const auto frame =
-          sphere_frame(static_cast<int>(column), static_cast<int>(row), options.size);
-      if (!frame) continue;
-      const std::size_t pixel = row * size + column;
-      const RadianceEstimate estimate =
-          integrator.integrate(view, *frame, mix_bits(options.seed) ^ mix_bits(~pixel));
-      for (int channel = 0; channel < 3; ++channel) {
-        const std::size_t target = 3 * pixel + static_cast<std::size_t>(channel);
-        image.radiance[target] = static_cast<float>(estimate.radiance[channel]);
-        image.standard_error[target] = static_cast<float>(estimate.standard_error[channel]);
-      }
-    }
-    progress.set(static_cast<double>(++finished_rows) / options.size);
-  });
-  return image;
+  const int size = options.size;
+  const auto surface = [size](int column, int row) { return sphere_frame(column, row, size); };
+  SurfaceImage image =
+      render_surface(panorama, brdf, {0.0, 0.0, 1.0}, surface,
+                     {size, size, options.samples, options.seed, options.threads}, progress);
+  return {size, std::move(image.radiance), std::move(image.standard_error)};
 }
 
 }  // namespace lobelight
