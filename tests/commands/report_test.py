@@ -298,6 +298,16 @@ class PageTest(unittest.TestCase):
         self.assertEqual(len(after), len(shown))
         self.assertTrue(all(WHERE[name] in line for line in after for name in WHERE))
 
+    def test_labels_do_not_touch(self):
+        numbers = random.Random(3)
+        for count in (1, 2, 7, 30):
+            values = [numbers.random() * 10 for _ in range(count)]
+            places = figures.spread(values, 0.5)
+            order = sorted(range(count), key=lambda i: values[i])
+            self.assertTrue(all(places[b] - places[a] > 0.4999 for a, b in zip(order, order[1:])))
+            self.assertAlmostEqual(sum(places), sum(values))
+        self.assertEqual(figures.spread([1.0, 9.0, 4.0], 0.5), [1.0, 9.0, 4.0])
+
     def test_links_lead_to_files_that_exist(self):
         elsewhere = self.folder / "elsewhere/bench"
         elsewhere.mkdir(parents=True)

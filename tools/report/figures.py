@@ -26,6 +26,8 @@ STYLES = {
 }
 RATIO_TICKS = (0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 4, 6, 8)
 COLUMNS = 4
+# A legend's entry is about as wide.
+LEGEND_INCHES = 2.1
 
 
 def save(figure, path):
@@ -44,7 +46,7 @@ def panels(count, sharey=False):
     columns = min(COLUMNS, count)
     rows = -(-count // columns)
     figure, axes = plt.subplots(
-        rows, columns, figsize=(3.5 * columns, 3.3 * rows + 0.7), squeeze=False, layout="constrained", sharey=sharey
+        rows, columns, figsize=(3.5 * columns, 3.3 * rows + 0.9), squeeze=False, layout="constrained", sharey=sharey
     )
     flat = list(axes.flat)
     for axis in flat[count:]:
@@ -54,7 +56,8 @@ def panels(count, sharey=False):
 
 def ratio_axis(axis, values):
     axis.set_xscale("log")
-    low, high = min(values) / 1.25, max(values) * 1.25
+    # Names stand to the right of the points.
+    low, high = min(values) / 1.25, max(values) * 1.6
     axis.set_xlim(low, high)
     axis.xaxis.set_major_locator(FixedLocator([t for t in RATIO_TICKS if low <= t <= high]))
     axis.xaxis.set_minor_locator(NullLocator())
@@ -66,7 +69,8 @@ def family_legend(figure, methods):
     handles = [
         plt.Line2D([], [], color=STYLES[f][0], marker=STYLES[f][1], linestyle="", markersize=5, label=f) for f in shown
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=min(5, len(handles)), fontsize=8)
+    columns = max(1, min(len(handles), int(figure.get_figwidth() / LEGEND_INCHES)))
+    figure.legend(handles=handles, loc="outside lower center", ncols=columns, fontsize=8)
 
 
 def scatter(axis, found, x_of):
@@ -81,6 +85,24 @@ def scatter(axis, found, x_of):
         if x_of(point) is not None:
             place, move = (x_of(point), point.psnr), (4, 3)
             axis.annotate(point.method, place, move, textcoords="offset points", fontsize=6.5)
+
+
+def spread(values, gap):
+    """Places for labels as near as can be to these values, from the lowest to the highest, no two nearer than `gap`."""
+    order = sorted(range(len(values)), key=lambda i: values[i])
+    groups = []
+    for index in order:
+        groups.append([[index], values[index]])
+        # Labels that touch share the room about their middle.
+        while len(groups) > 1 and groups[-1][1] - groups[-2][1] < gap * (len(groups[-1][0]) + len(groups[-2][0])) / 2:
+            (one, middle), (two, other) = groups[-2:]
+            joint = (middle * len(one) + other * len(two)) / (len(one) + len(two))
+            groups[-2:] = [[one + two, joint]]
+    places = [0.0] * len(values)
+    for members, middle in groups:
+        for place, index in enumerate(members):
+            places[index] = middle + gap * (place - (len(members) - 1) / 2)
+    return places
 
 
 def error_against_time(entries, found, path):
@@ -126,9 +148,11 @@ def isotropic(by_map, path):
             colour, marker = style_of(method)
             axis.plot(*zip(*sorted(line.items())), marker=marker, color=colour, markersize=3.5, linewidth=1)
             ends.append((line[max(line)], method, max(line)))
-        for value, method, width in ends:
-            axis.annotate(method, (width, value), (5, -2), textcoords="offset points", fontsize=6.5)
-        axis.set_xlim(0.0, 1.22 * max(width for *_, width in ends))
+        low, high = axis.get_ylim()
+        last = max(width for *_, width in ends)
+        for (_, method, _), place in zip(ends, spread([value for value, *_ in ends], 0.035 * (high - low))):
+            axis.annotate(method, (last, place), (8, -2), textcoords="offset points", fontsize=6.5)
+        axis.set_xlim(0.0, 1.3 * last)
         axis.set_title(map_name)
         axis.set_xlabel("alpha")
     for axis in axes[::COLUMNS]:
