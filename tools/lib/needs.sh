@@ -168,3 +168,25 @@ need_template() {
   fi
   export TEMPLATE
 }
+
+# need_java: sets and exports JAVA_HOME, a JDK of at least 17, and makes sure of Maven.
+need_java() {
+  local probes=("command javac openjdk-17-jdk-headless" "command mvn maven")
+  if [[ -n $(missing_packages "${probes[@]}") ]]; then
+    install_packages "${probes[@]}"
+  fi
+  JAVA_HOME=$(dirname "$(dirname "$(readlink -f "$(command -v javac)")")")
+  export JAVA_HOME
+}
+
+# need_android: sets ANDROID_KIT, the folder with the engine's Android template and the tools that sign and check.
+need_android() {
+  need_java
+  ANDROID_KIT=$CACHE/android/$(content_hash "$ROOT/tools/setup/android.sh" "$ROOT/tools/android/artefacts.txt" \
+    "$ROOT/tools/android/build_template.py")
+  if [[ ! -f $ANDROID_KIT/complete ]]; then
+    need_packages
+    locked "$CACHE/lock/android" bash "$ROOT/tools/setup/android.sh" "$ANDROID_KIT"
+  fi
+  export ANDROID_KIT
+}

@@ -105,7 +105,7 @@ run_export() {
   need_import
   run_logged export-package in_time bash "$ROOT/tests/commands/package_test.sh"
   judge export-package
-  run_logged export-android in_time bash "$ROOT/tools/commands/android.sh" --out "$RESULTS/android"
+  run_logged export-android in_time bash "$ROOT/tools/commands/android.sh" --pack-only --out "$RESULTS/android"
   judge export-android
 }
 
