@@ -10,6 +10,7 @@ import sys
 import tempfile
 import unittest
 import unittest.mock
+from html.parser import HTMLParser
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools/report"))
@@ -323,6 +324,29 @@ class PageTest(unittest.TestCase):
         one["methods"]["toral8"]["psnr"] = None
         markdown, _ = self.write([one])
         self.assertIn("| toral8 | 8 | 8 | 0 | – |", markdown)
+
+    def test_every_tag_is_closed(self):
+        _, html = self.write(self.entries())
+        open_tags = []
+
+        class Reader(HTMLParser):
+            def handle_starttag(self, tag, attributes):
+                if tag not in ("meta", "img"):
+                    open_tags.append(tag)
+
+            def handle_endtag(self, tag):
+                assert open_tags.pop() == tag, tag
+
+        Reader().feed(html)
+        self.assertEqual(open_tags, [])
+
+    def test_the_references_checks_are_shown(self):
+        results = self.folder / "elsewhere/crosscheck/results.json"
+        results.parent.mkdir(parents=True)
+        own = {"check": "teapot", "brdf": "ggx", "alpha": [0.05, 0.3], "passed": True, "difference": -0.0021}
+        results.write_text(json.dumps([own, {**own, "passed": False, "difference": 0.001}]), encoding="utf-8")
+        markdown, _ = self.write(self.entries())
+        self.assertIn("teapot without shadows | GGX (0.05, 0.3) | 1 of 2 | 0.210 % |", markdown)
 
     def test_html_is_escaped(self):
         html = document.html_page("a < b", [document.Text("1 < 2 & `x<y>` **bold** [a](b.md)")])

@@ -23,6 +23,7 @@ SECTIONS = (
     studies.changing,
     studies.bake,
     studies.phones,
+    studies.reference,
     verdicts.methods,
     verdicts.everything,
     verdicts.links,

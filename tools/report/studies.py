@@ -19,6 +19,15 @@ TORAL_TEXEL_BYTES = 16
 BYTES_OF_SIDE = 64
 
 
+CHECKS = {
+    "self": "itself, with twice the samples",
+    "adaptive": "SciPy's adaptive cubature, an analytic map, single pixels",
+    "cells": "Gauss–Legendre rules between all texels, single pixels",
+    "mitsuba": "Mitsuba 3, the sphere",
+    "teapot": "Mitsuba 3, the teapot without shadows",
+}
+
+
 def update_time(own):
     """Milliseconds of the GPU for what a changed environment asks of a method, where plan.json says it."""
     for name in ("prefilter_ms", "rebuild_ms", "update_ms"):
@@ -192,3 +201,28 @@ def phones(page):
         page.blocks.append(doc.Figure("compare/phones.svg", caption, source))
         table = doc.Table(["GPU", "material", "method", "instructions", "registers", "dB"], rows, 3)
         page.blocks.append(doc.Folded("Instructions and registers", [table]))
+
+
+def reference(page):
+    """How far the reference can be trusted, where ./dev crosscheck has left what it found."""
+    path = page.report_folder / "crosscheck/results.json"
+    if not path.exists():
+        return
+    found = json.loads(path.read_text(encoding="utf-8"))
+    rows = []
+    for check, what in CHECKS.items():
+        own = [result for result in found if result["check"] == check]
+        if not own:
+            continue
+        materials = joined(dict.fromkeys(cases.material_name((r["brdf"], r["alpha"])) for r in own))
+        if check == "self":
+            worst = f"{min(r['difference'] for r in own):.1f} dB"
+        else:
+            worst = f"{100 * max(abs(r['difference']) for r in own):.3f} %"
+        rows.append([what, materials, f"{sum(r['passed'] for r in own)} of {len(own)}", worst])
+    page.heading("Is the reference right?")
+    page.text(
+        "`./dev crosscheck --json docs/report/crosscheck/results.json` compares it with integrators that share no code with it; each"
+        " comparison is judged by its own noise. Differences are of a pixel's light, and for Mitsuba of the whole picture's."
+    )
+    page.table(["compared with", "materials", "agree", "largest difference"], rows, names=2)
