@@ -126,6 +126,7 @@ func _make_viewport(method: ComparisonMethod) -> LinearViewport:
 	var viewport := LinearViewport.new(size)
 	stage.tree.root.add_child(viewport)
 	viewport.add_child(method.make_sphere())
+	method.set_up_viewport(viewport)
 	return viewport
 
 

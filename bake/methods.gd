@@ -7,6 +7,9 @@ const Asg := preload("comparators/asg.gd")
 const ClosedForm := preload("comparators/closed_form.gd")
 const Fis := preload("comparators/fis.gd")
 const Gmm := preload("comparators/gmm.gd")
+const MajorAxis := preload("comparators/major_axis.gd")
+const SplitSum := preload("comparators/split_sum.gd")
+const Stock := preload("comparators/stock.gd")
 const Toral := preload("comparators/toral.gd")
 
 const REFERENCE := "reference"
@@ -22,15 +25,14 @@ const RIVALS: PackedStringArray = [
 	"allfreq8",
 	"asg",
 	"closed8",
+	"majoraxis8",
+	"splitsum",
+	"stock",
 ]
-## Named in the contract, built later.
-const PLANNED: PackedStringArray = ["majoraxis8", "stock"]
 
 
 ## One sentence where a name cannot be drawn, otherwise empty.
 static func error(method: String) -> String:
-	if method in PLANNED:
-		return "method %s: not available yet." % method
 	if method == REFERENCE or method in RIVALS or _gmm_lobes(method) > 0:
 		return ""
 	return (
@@ -54,6 +56,12 @@ static func make(method: String, brdf: String, alpha: PackedFloat64Array) -> Com
 		made = Asg.new()
 	elif method == "closed8":
 		made = ClosedForm.new()
+	elif method == "majoraxis8":
+		made = MajorAxis.new()
+	elif method == "splitsum":
+		made = SplitSum.new()
+	elif method == "stock":
+		made = Stock.new()
 	if made != null:
 		made.name = method
 		made.brdf = brdf

@@ -23,6 +23,11 @@ func make_sphere() -> MeshInstance3D:
 	return null
 
 
+## What the method needs of the viewport that the sphere is put into, besides.
+func set_up_viewport(_viewport: LinearViewport) -> void:
+	pass
+
+
 ## What one pixel costs: [code]{"fetches", "probes", "table_fetches"}[/code], the texture
 ## instructions on the environment, what the sampler reads for them (a trilinear look-up counts as
 ## one), and the texture instructions on tables.

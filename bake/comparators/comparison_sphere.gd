@@ -16,6 +16,8 @@ static func make(
 ) -> MeshInstance3D:
 	var folder := SphereImpostor.FRAGMENT_PATH.get_base_dir()
 	var code := "shader_type spatial;\nrender_mode ambient_light_disabled;\n"
+	if light != null and not light.is_even:
+		code += "#define LOBELIGHT_STRETCHED_LEVELS\n"
 	for define in defines:
 		code += "#define %s\n" % define
 	code += '#include "%s"\n' % folder.path_join("comparators").path_join(path)

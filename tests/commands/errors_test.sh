@@ -112,8 +112,6 @@ compare_refuses "an EXR that is cut off" "cut.exr" "${good_compare[@]}" --method
 compare_refuses "an empty file" "empty.exr" "${good_compare[@]}" --methods gmm4 --env "$work/empty.exr"
 compare_refuses "a folder for an environment" "$work" "${good_compare[@]}" --methods gmm4 --env "$work"
 compare_refuses "an unknown method" "magic8" "${good_compare[@]}" --methods magic8 --env "$environment"
-compare_refuses "a method that comes later" "not available yet" \
-  "${good_compare[@]}" --methods gmm4,stock --env "$environment"
 compare_refuses "a method without lobes" "gmm0" "${good_compare[@]}" --methods gmm0 --env "$environment"
 compare_refuses "a method with a thousand lobes" "1000" \
   "${good_compare[@]}" --methods gmm1000 --env "$environment"

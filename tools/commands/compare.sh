@@ -12,6 +12,9 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
                 allfreq1 allfreq8: spherical Gaussians for the normals' density, warped (Wang et al. 2009)
                 asg: one anisotropic spherical Gaussian (Xu et al. 2013), drawn as eight round ones
                 closed8: eight lobes in closed form, without a table
+                majoraxis8: samples along the major axis of a prefiltered map (Cocco, Zanni and Chermain 2024)
+                splitsum: a map filtered for this very width times the albedo; with a bent normal if anisotropic
+                stock: StandardMaterial3D under the engine's own sky; always GGX, to 10:1; see bake/comparators/stock.gd
                 reference: with itself
 --size N        pixels along the side (default 256)
 --renderer R    mobile (default), gl_compatibility or forward_plus
