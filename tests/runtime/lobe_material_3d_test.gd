@@ -219,3 +219,19 @@ func test_fetches_are_counted() -> void:
 	material.metallic = 0.0
 	material.clearcoat = 1.0
 	assert_dict(material.get_fetches()).is_equal({"environment": 22, "table": 24, "samplers": 3})
+
+
+func test_questions_leave_what_is_drawn() -> void:
+	# By its number: a reference would keep it.
+	var material := LobeMaterial3D.new()
+	material.roughness = 0.37
+	material.anisotropy = 0.7
+	material.clearcoat = 1.0
+	await await_idle_frame()
+	var table := material._choice.table.get_instance_id()
+	var coat := material._choice.coat.get_instance_id()
+	material.needs_tangents()
+	material.get_fetches()
+	material.get_shader_code()
+	assert_int(material._choice.table.get_instance_id()).is_equal(table)
+	assert_int(material._choice.coat.get_instance_id()).is_equal(coat)

@@ -30,6 +30,10 @@ var _stand_in: LobeTable
 
 ## Looks anew at what the material says.
 func choose(material: LobeMaterial3D) -> void:
+	# Sets find a shared table again only while somebody holds it, and the rendering server goes on
+	# drawing with its texture.
+	@warning_ignore("unused_variable")
+	var held := [table, widths_texture, coat]
 	roughness = material.roughness
 	anisotropy = material.anisotropy
 	rotation = material.anisotropy_rotation
