@@ -4,6 +4,7 @@ extends SceneTree
 
 const DemoScene := preload("res://demo/demo.tscn")
 const DemoRoot := preload("res://demo/demo.gd")
+const PictureFile := preload("res://demo/picture_file.gd")
 const SIZE := Vector2i(1280, 720)
 
 var _arguments := CommandLine.new("demo", ["out", "env", "json"])
@@ -69,30 +70,5 @@ func _wanted_environments(count: int) -> Array:
 func _save(viewport: SubViewport, out: String, title: String) -> Dictionary:
 	var renderer := RenderingServer.get_current_rendering_method()
 	var path := out.path_join("%s_%s.png" % [title.to_lower(), renderer])
-	var image := viewport.get_texture().get_image()
-	image.convert(Image.FORMAT_RGBF)
-	# Compatibility's viewports hold sRGB, those of the others linear colours.
-	if renderer != "gl_compatibility":
-		image = _encode_srgb(image)
-	image.convert(Image.FORMAT_RGB8)
-	_arguments.fail_if(_save_png(image, path))
+	_arguments.fail_if(PictureFile.save(viewport, path))
 	return {"environment": title, "renderer": renderer, "picture": path}
-
-
-# Image.linear_to_srgb does this for eight bits only.
-static func _encode_srgb(image: Image) -> Image:
-	var values := image.get_data().to_float32_array()
-	for i in values.size():
-		var value := values[i]
-		values[i] = 12.92 * value if value <= 0.0031308 else 1.055 * pow(value, 1.0 / 2.4) - 0.055
-	return Image.create_from_data(
-		image.get_width(), image.get_height(), false, Image.FORMAT_RGBF, values.to_byte_array()
-	)
-
-
-func _save_png(image: Image, path: String) -> String:
-	var temporary := path + ".tmp"
-	var error := image.save_png(temporary)
-	if error == OK:
-		error = DirAccess.rename_absolute(temporary, path)
-	return "" if error == OK else "%s: cannot be written (%s)." % [path, error_string(error)]

@@ -13,12 +13,15 @@ usage() {
   cat <<USAGE
 usage: ./dev demo [--env N] [--renderer R] [--out DIR] [--json FILE]
        ./dev demo --window [--renderer R]
+       ./dev demo --engine-light FILE
 
 --env N        only environment N: 1 hall, 2 sunset
 --renderer R   mobile (default), gl_compatibility or forward_plus
 --out DIR      where the pictures go (default: build/demo)
 --json FILE    writes what the closing table shows as JSON
 --window       opens the demo on your display
+--engine-light FILE   draws one picture instead, in Forward+: what the engine's lights, fog, decals, reflection
+               probes and VoxelGI make of a LobeMaterial3D (left) and of a StandardMaterial3D (right)
 USAGE
 }
 
@@ -27,6 +30,7 @@ renderer=mobile
 out=$ROOT/build/demo
 json=""
 chosen=""
+engine_light=""
 while (($# > 0)); do
   case $1 in
     -h | --help)
@@ -34,13 +38,14 @@ while (($# > 0)); do
       exit 0
       ;;
     --window) window=true ;;
-    --env | --renderer | --out | --json)
+    --env | --renderer | --out | --json | --engine-light)
       [[ -n ${2:-} ]] || die "demo: $1 needs a value"
       case $1 in
         --env) chosen=$2 ;;
         --renderer) renderer=$2 ;;
         --out) out=$(realpath -m -- "$2") ;;
         --json) json=$(realpath -m -- "$2") ;;
+        --engine-light) engine_light=$(realpath -m -- "$2") ;;
       esac
       shift
       ;;
@@ -89,6 +94,12 @@ if $window; then
   need_display
   bake_demo_tables 4 8 16
   godot_rendered "$renderer" res://demo/demo.tscn
+  exit
+fi
+
+if [[ -n $engine_light ]]; then
+  godot_rendered forward_plus --no-header --script res://demo/engine_light.gd -- --out "$engine_light"
+  say "$engine_light"
   exit
 fi
 
