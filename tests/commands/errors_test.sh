@@ -155,6 +155,10 @@ refuses "package, an output in a missing folder" "missing/x.zip" package --out m
 refuses "android, an unknown option" "--colour" android --colour red
 refuses "android, an output that is a file" "is not a folder" android --out "$environment"
 refuses "android, JSON in a missing folder" "missing/a.json" android --json missing/a.json
+refuses "diet, nothing to look at" "SCENE|PROJECT" diet
+refuses "diet, a scene that is not there" "absent.tscn" diet absent.tscn
+refuses "diet, a file that is no scene" "is not a scene" diet "$root/README.md"
+refuses "diet, a folder without a project" "is in no project" diet "$work"
 refuses "an unknown command" "no-such-command" no-such-command
 refuses "a command that comes later" "not available yet" fuzz
 

@@ -59,7 +59,7 @@ func _choose_from(tables: LobeTableSet, material: LobeMaterial3D) -> void:
 		rotation += 0.5 * PI
 	lobe_count = tables.lobe_count
 	is_isotropic = anisotropy == 0.0
-	if _varies(material) and WidthsTexture.get_problem(tables).is_empty():
+	if varies(material) and WidthsTexture.get_problem(tables).is_empty():
 		widths_texture = tables.get_widths_texture(is_isotropic)
 	else:
 		table = tables.shared_table_at(Widths.from_roughness(roughness, anisotropy))
@@ -82,7 +82,8 @@ func _choose_table(material: LobeMaterial3D) -> void:
 	anisotropy = 0.0 if is_isotropic else godots.y
 
 
-static func _varies(material: LobeMaterial3D) -> bool:
+## Whether a material's widths vary from pixel to pixel.
+static func varies(material: LobeMaterial3D) -> bool:
 	if material.orm_texture != null or material.roughness_texture != null:
 		return true
 	var flowmap := material.anisotropy_flowmap

@@ -2,13 +2,26 @@
 extends EditorExportPlugin
 ## Keeps out of exported projects what only the editor needs of this addon: the native library with
 ## its .gdextension, the editor's scripts, and the classes' icons. No filter has to be written.
+## [br][br]
+## Of the ready tables it exports those that the project's materials can reach, prints what it did,
+## and keeps a report in the project's data folder. The preset's option "lobelight/cut_tables" turns
+## that off.
 
+const Diet := preload("diet.gd")
 const ExtensionList := preload("extension_list.gd")
+const Reach := preload("reach.gd")
+const TableChoice := preload("../../runtime/table_choice.gd")
 
 const ADDON := "res://addons/lobelight/"
 const EDITOR_ONLY: PackedStringArray = ["editor/", "bin/", "doc_classes/", "icons/"]
+const TABLE_CHOICE := "res://addons/lobelight/runtime/table_choice.gd"
+const CUT_TABLES := "lobelight/cut_tables"
+const REPORT := "res://.godot/lobelight_export.json"
 
 var _extension_list := ExtensionList.new()
+var _diet: Diet
+# The sets that have been seen to.
+var _done: Dictionary[String, bool] = {}
 
 
 # The engine calls plugins in the order of their names. This one has to come before the engine's own
@@ -17,10 +30,18 @@ func _get_name() -> String:
 	return "AddonLobelight"
 
 
+func _get_export_options(_platform: EditorExportPlatform) -> Array[Dictionary]:
+	return [{"option": {"name": CUT_TABLES, "type": TYPE_BOOL}, "default_value": true}]
+
+
 func _export_begin(
 	_features: PackedStringArray, _is_debug: bool, _path: String, _flags: int
 ) -> void:
 	_extension_list.leave_out(ADDON)
+	_done.clear()
+	_diet = null
+	if get_option(CUT_TABLES) != false:
+		_diet = Diet.of_files(Reach.files_of_project(get_export_preset().get_exclude_filter()))
 
 
 func _export_file(path: String, _type: String, _features: PackedStringArray) -> void:
@@ -34,10 +55,39 @@ func _export_file(path: String, _type: String, _features: PackedStringArray) -> 
 		if name.begins_with(folder):
 			skip()
 			return
+	if path == TABLE_CHOICE:
+		# It loads the set by its path, which an export of chosen scenes does not know of.
+		_export_table(TableChoice.DEFAULT_SET, false)
+	elif path.begins_with(Reach.TABLES) and _export_table(path, true):
+		skip()
+
+
+# Adds what the export takes of a set. Returns false if the engine is to export the file as it is,
+# which it can only where the file's turn has come.
+func _export_table(path: String, is_its_turn: bool) -> bool:
+	if _done.has(path) or not FileAccess.file_exists(path):
+		return true
+	_done[path] = true
+	var share: Diet.Share = _diet.shares.get(path) if _diet != null else null
+	if share != null and share.is_left_out():
+		return true
+	var is_cut := share != null and not share.bytes.is_empty()
+	if is_its_turn and not is_cut:
+		return false
+	add_file(path, share.bytes if is_cut else FileAccess.get_file_as_bytes(path), false)
+	return true
 
 
 func _export_end() -> void:
 	_extension_list.restore()
+	if _diet == null:
+		return
+	for line: String in _diet.describe():
+		print(line)
+	var file := FileAccess.open(REPORT, FileAccess.WRITE)
+	if file != null:
+		file.store_string(JSON.stringify(_diet.to_dictionary(), "  ", false) + "\n")
+	_diet = null
 
 
 static func _project_icon() -> String:

@@ -1,0 +1,33 @@
+extends SceneTree
+## Reports what an export takes along of the addon's tables: [code]--script …/diet_command.gd --
+## [--scene res://X.tscn] [--json FILE][/code]. For [code]./dev diet[/code].
+
+const Diet := preload("diet.gd")
+const Reach := preload("reach.gd")
+
+
+func _initialize() -> void:
+	var scene := _argument("--scene")
+	var diet := Diet.of_files(
+		Reach.files_of_project() if scene.is_empty() else Reach.files_of_scene(scene)
+	)
+	print("\n".join(diet.describe()))
+	quit(0 if _write(_argument("--json"), diet.to_dictionary()) else 1)
+
+
+static func _argument(name: String) -> String:
+	var arguments := OS.get_cmdline_user_args()
+	var index := arguments.find(name)
+	return arguments[index + 1] if index >= 0 and index + 1 < arguments.size() else ""
+
+
+static func _write(path: String, report: Dictionary) -> bool:
+	if path.is_empty():
+		return true
+	var part := path + ".part"
+	var file := FileAccess.open(part, FileAccess.WRITE)
+	if file == null or not file.store_string(JSON.stringify(report, "  ", false) + "\n"):
+		printerr("diet: %s: cannot be written" % path)
+		return false
+	file.close()
+	return DirAccess.rename_absolute(part, path) == OK

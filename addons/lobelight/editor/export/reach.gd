@@ -1,0 +1,257 @@
+@tool
+extends RefCounted
+## Which ready sets of tables a project's files can reach, and which widths of them.
+##
+## Scenes and resources are loaded and looked through; scripts are read as text. A number that a
+## script assigns counts; anything else that it does with a width is unknown, and then all widths
+## are kept. A scene can say what its scripts do: the metadata [code]lobelight_reach[/code] of its
+## root, as [code]{"roughness": [0.2, 0.5], "anisotropy": [0.0, 0.9]}[/code], stands in for what is
+## not known of them.
+
+const TableChoice := preload("../../runtime/table_choice.gd")
+const Widths := preload("../../runtime/widths.gd")
+
+const TABLES := "res://addons/lobelight/tables/"
+const DECLARATION := "metadata/lobelight_reach"
+const SCENES: PackedStringArray = ["tscn", "scn"]
+const RESOURCES: PackedStringArray = ["tres", "res", "material", "mesh"]
+const SCRIPTS: PackedStringArray = ["gd", "cs"]
+const WIDTHS := "roughness|anisotropy|clearcoat_roughness|clearcoat"
+
+
+## What is known of one set.
+class SetReach:
+	extends RefCounted
+	## The least and the largest width.
+	var low := INF
+	var high := 0.0
+	## Why all widths are kept, or empty.
+	var whole_because := ""
+	## Who needs the set: files, with what they ask of it.
+	var needed_by: PackedStringArray = []
+
+	func include(width: float) -> void:
+		low = minf(low, width)
+		high = maxf(high, width)
+
+
+## By the path of the set.
+var sets: Dictionary[String, SetReach] = {}
+## How many materials of the addon were found.
+var material_count := 0
+
+# Each is [file, material].
+var _materials: Array[Array] = []
+var _numbers: Dictionary[String, PackedFloat64Array] = {}
+var _unknown: PackedStringArray = []
+var _declared := false
+var _made_by_script: PackedStringArray = []
+var _named_sets: Dictionary[String, String] = {}
+var _seen: Dictionary[int, bool] = {}
+var _assignment := RegEx.create_from_string(
+	"\\.(%s)\\s*=\\s*(-?[0-9]*\\.?[0-9]+)\\s*;?\\s*(#.*|//.*)?$" % WIDTHS
+)
+var _mention := RegEx.create_from_string("\\b(%s)\\b" % WIDTHS)
+var _mentioned_set := RegEx.create_from_string("(\\w+)\\.res\\b")
+
+
+## What a list of files reaches. Files of this addon say nothing.
+static func of_files(files: PackedStringArray) -> RefCounted:
+	var reach := new()
+	for file in files:
+		if not file.begins_with("res://addons/lobelight/"):
+			reach._read(file)
+	reach._conclude()
+	return reach
+
+
+## All files of the project that it would load or run, without folders that the engine ignores and
+## without those that match [param exclude], a preset's filter.
+static func files_of_project(exclude: String = "") -> PackedStringArray:
+	var filters: PackedStringArray = []
+	for filter in exclude.split(",", false):
+		filters.append(filter.strip_edges())
+	var files: PackedStringArray = []
+	_collect("res://", filters, files)
+	return files
+
+
+## A scene with all that it depends on.
+static func files_of_scene(scene: String) -> PackedStringArray:
+	var files: PackedStringArray = [scene]
+	var next := 0
+	while next < files.size():
+		for dependency in ResourceLoader.get_dependencies(files[next]):
+			# uid::type::path, or a path alone.
+			var path := dependency.get_slice("::", 2) if "::" in dependency else dependency
+			if path and path not in files:
+				files.append(path)
+		next += 1
+	return files
+
+
+static func _collect(folder: String, filters: PackedStringArray, files: PackedStringArray) -> void:
+	if FileAccess.file_exists(folder.path_join(".gdignore")):
+		return
+	for name in DirAccess.get_files_at(folder):
+		var path := folder.path_join(name)
+		if _is_read(path) and not _is_excluded(path.trim_prefix("res://"), filters):
+			files.append(path)
+	for name in DirAccess.get_directories_at(folder):
+		if not name.begins_with("."):
+			_collect(folder.path_join(name), filters, files)
+
+
+static func _is_read(path: String) -> bool:
+	return path.get_extension() in SCENES + RESOURCES + SCRIPTS
+
+
+static func _is_excluded(path: String, filters: PackedStringArray) -> bool:
+	for filter in filters:
+		if path.matchn(filter):
+			return true
+	return false
+
+
+func _read(file: String) -> void:
+	var ending := file.get_extension()
+	if ending in SCRIPTS:
+		_read_script(file, FileAccess.get_file_as_string(file))
+	elif ending in SCENES:
+		_look_at_scene(file, ResourceLoader.load(file) as PackedScene)
+	elif ending in RESOURCES:
+		_look_at(file, ResourceLoader.load(file))
+
+
+func _look_at_scene(file: String, scene: PackedScene) -> void:
+	if scene == null:
+		_unknown.append("%s cannot be read" % file)
+		return
+	var state := scene.get_state()
+	for node in state.get_node_count():
+		for property in state.get_node_property_count(node):
+			var value: Variant = state.get_node_property_value(node, property)
+			if state.get_node_property_name(node, property) == DECLARATION and value is Dictionary:
+				_declare(value)
+			else:
+				_look_at(file, value)
+
+
+func _declare(ranges: Dictionary) -> void:
+	_declared = true
+	for key: String in ["roughness", "anisotropy"]:
+		for number: float in ranges.get(key, []):
+			_add_number(key, number)
+
+
+# A value of a property, and what it holds.
+func _look_at(file: String, value: Variant) -> void:
+	if value is Array or value is Dictionary:
+		for part: Variant in value if value is Array else (value as Dictionary).values():
+			_look_at(file, part)
+		return
+	var resource := value as Resource if value is Object else null
+	if resource == null or _seen.has(resource.get_instance_id()):
+		return
+	_seen[resource.get_instance_id()] = true
+	if resource is PackedScene:
+		_look_at_scene(file, resource)
+	elif resource is Script:
+		if resource.resource_path.is_empty() or "::" in resource.resource_path:
+			_read_script(file, (resource as Script).source_code)
+	elif resource is LobeMaterial3D:
+		_materials.append([file, resource])
+	elif resource is Animation:
+		_look_at_animation(file, resource)
+	else:
+		for property in resource.get_property_list():
+			if property["usage"] & PROPERTY_USAGE_STORAGE:
+				_look_at(file, resource.get(property["name"]))
+
+
+func _look_at_animation(file: String, animation: Animation) -> void:
+	for track in animation.get_track_count():
+		var path := String(animation.track_get_path(track))
+		if _mention.search(path) != null:
+			_unknown.append("%s animates %s" % [file, path])
+
+
+func _read_script(file: String, text: String) -> void:
+	for line in text.split("\n"):
+		var code := line.strip_edges()
+		if code.begins_with("#") or code.begins_with("//"):
+			continue
+		var assigned := _assignment.search(code)
+		if assigned != null:
+			_add_number(assigned.get_string(1), assigned.get_string(2).to_float())
+		elif _mention.search(code) != null:
+			_unknown.append("%s: %s" % [file, code.left(80)])
+		for found in _mentioned_set.search_all(code):
+			var path := TABLES + found.get_string(0)
+			if FileAccess.file_exists(path):
+				_named_sets[path] = file
+		if "LobeMaterial3D.new()" in code or "new LobeMaterial3D" in code:
+			_made_by_script.append(file)
+		elif "LobeMaterial3D.from_standard" in code or "table_at(" in code:
+			_unknown.append("%s: %s" % [file, code.left(80)])
+			_made_by_script.append(file)
+
+
+func _add_number(property: String, number: float) -> void:
+	if not _numbers.has(property):
+		_numbers[property] = PackedFloat64Array()
+	_numbers[property].append(number)
+
+
+func _conclude() -> void:
+	for file in _made_by_script:
+		_materials.append([file, LobeMaterial3D.new()])
+	material_count = _materials.size()
+	for entry in _materials:
+		_include(entry[0], entry[1])
+	for path in _named_sets:
+		var named := _get_set(path)
+		# The script may ask it for any table.
+		named.whole_because = "%s names it" % _named_sets[path]
+		if _named_sets[path] not in named.needed_by:
+			named.needed_by.append(_named_sets[path])
+	if not _declared and not _unknown.is_empty():
+		for reach: SetReach in sets.values():
+			reach.whole_because = _unknown[0]
+
+
+func _get_set(path: String) -> SetReach:
+	if not sets.has(path):
+		sets[path] = SetReach.new()
+	return sets[path]
+
+
+func _include(file: String, material: LobeMaterial3D) -> void:
+	var coats := _all_of("clearcoat", material.clearcoat)
+	var has_coat: bool = coats.any(func(coat: float) -> bool: return coat > 0.0)
+	if material.table != null and not has_coat:
+		return
+	var path := TableChoice.DEFAULT_SET
+	if material.table_set != null:
+		path = material.table_set.resource_path
+	var reach := _get_set(path)
+	if file not in reach.needed_by:
+		reach.needed_by.append(file)
+	if material.table == null:
+		if TableChoice.varies(material):
+			reach.whole_because = "%s has a texture of widths" % file
+		for roughness in _all_of("roughness", material.roughness):
+			for anisotropy in _all_of("anisotropy", material.anisotropy):
+				var widths := Widths.from_roughness(roughness, anisotropy)
+				reach.include(widths.x)
+				reach.include(widths.y)
+	if has_coat:
+		for roughness in _all_of("clearcoat_roughness", material.clearcoat_roughness):
+			reach.include(Widths.from_coat_roughness(roughness))
+
+
+# A material's own value and those that scripts may give it.
+func _all_of(property: String, own: float) -> Array[float]:
+	var all: Array[float] = [own]
+	all.append_array(_numbers.get(property, PackedFloat64Array()))
+	return all

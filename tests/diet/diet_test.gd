@@ -1,0 +1,117 @@
+extends GdUnitTestSuite
+## What of the ready sets scenes reach, and that what is left of a set draws as the whole set does.
+
+const Diet := preload("res://addons/lobelight/editor/export/diet.gd")
+const Reach := preload("res://addons/lobelight/editor/export/reach.gd")
+const SetCut := preload("res://addons/lobelight/editor/export/set_cut.gd")
+const TableChoice := preload("res://addons/lobelight/runtime/table_choice.gd")
+const Widths := preload("res://addons/lobelight/runtime/widths.gd")
+const SCENES := "res://tests/diet/scenes/"
+const GGX := "res://addons/lobelight/tables/ggx_8.res"
+const WARD := "res://addons/lobelight/tables/ward_8.res"
+
+## A scene, what is left of the sets of GGX and of Ward at most, as shares.
+const LEFT := [
+	["empty", 0.0, 0.0],
+	["isotropic", 0.05, 0.0],
+	["anisotropic", 0.3, 0.0],
+	["by_script", 0.3, 0.0],
+	["declared", 0.25, 0.0],
+]
+
+## Pairs of roughness and anisotropy.
+const SURFACES := [
+	[0.35, 0.0],
+	[0.35, 0.9],
+	[0.35, -0.8],
+	[0.05, 0.0],
+	[1.0, 0.0],
+	[0.2, 1.1],
+	[0.02, 0.5],
+	[0.7, 0.33],
+	[0.5, 0.999],
+]
+
+
+func _diet(scene: String) -> Diet:
+	return Diet.of_files(Reach.files_of_scene(SCENES + scene + ".tscn"))
+
+
+func test_left_of_the_sets(
+	scene: String, ggx: float, ward: float, _test_parameters := LEFT
+) -> void:
+	var diet := _diet(scene)
+	for wanted: Array in [[GGX, ggx], [WARD, ward]]:
+		var share: Diet.Share = diet.shares[wanted[0]]
+		assert_int(share.before).is_greater(1000000)
+		assert_float(float(share.after) / share.before).is_less_equal(wanted[1])
+		assert_bool(share.is_left_out()).is_equal(wanted[1] == 0.0)
+
+
+func test_at_least_four_fifths_of_our_bytes_are_gone_for_an_isotropic_scene() -> void:
+	var report := _diet("isotropic").to_dictionary()
+	assert_int(report["materials"]).is_equal(1)
+	assert_float(float(report["after"]) / float(report["before"])).is_less_equal(0.2)
+	assert_int(report["run_time"]).is_greater(50000)
+
+
+func test_textures_keep_all_widths_and_coats_keep_the_set_that_draws_them() -> void:
+	var diet := _diet("everything")
+	assert_int(diet.shares[WARD].after).is_equal(diet.shares[WARD].before)
+	assert_str(diet.shares[WARD].why).contains("texture")
+	assert_bool(diet.shares[GGX].is_left_out()).is_true()
+
+
+func test_what_a_script_does_is_kept_where_it_is_not_known() -> void:
+	var share: Diet.Share = _diet("by_unknown").shares[GGX]
+	assert_int(share.after).is_equal(share.before)
+	assert_str(share.why).contains("by_unknown.gd")
+
+
+func test_numbers_of_scripts_widen_the_range() -> void:
+	var reach := Reach.of_files(Reach.files_of_scene(SCENES + "by_script.tscn"))
+	var widest := Widths.from_roughness(0.35, 0.8)
+	var narrowest := Widths.from_roughness(0.25, 0.8)
+	var found: Reach.SetReach = reach.sets[GGX]
+	assert_float(found.high).is_equal_approx(widest.x, 1e-6)
+	assert_float(found.low).is_equal_approx(narrowest.y, 1e-6)
+
+
+func test_a_cut_set_gives_the_same_tables(
+	roughness: float, anisotropy: float, _test_parameters := SURFACES
+) -> void:
+	var whole: LobeTableSet = load(GGX)
+	var widths := Widths.from_roughness(roughness, anisotropy)
+	var low := minf(widths.x, widths.y)
+	var high := maxf(widths.x, widths.y)
+	var part := SetCut.cut(whole, low, high)
+	assert_str(part.get_problem()).is_empty()
+	assert_int(part.widths.size()).is_less(whole.widths.size())
+	# As materials ask: widths are rounded, by steps that do not know of the set.
+	var expected := whole.shared_table_at(widths).image.get_data()
+	var found := part.shared_table_at(widths).image.get_data()
+	assert_int(found.size()).is_greater(0)
+	assert_float(_largest_difference(expected, found)).is_less_equal(2e-3)
+
+
+# Relative to the values, in half precision.
+func _largest_difference(expected: PackedByteArray, found: PackedByteArray) -> float:
+	if expected.size() != found.size():
+		return INF
+	var largest := 0.0
+	for i in range(0, expected.size(), 2):
+		var value := expected.decode_half(i)
+		var scale := maxf(absf(value), 0.1)
+		largest = maxf(largest, absf(found.decode_half(i) - value) / scale)
+	return largest
+
+
+func test_the_whole_range_is_the_set_itself() -> void:
+	var whole: LobeTableSet = load(GGX)
+	assert_object(SetCut.cut(whole, whole.widths[0], whole.widths[-1])).is_same(whole)
+
+
+func test_a_cut_set_is_saved_as_equal_bytes() -> void:
+	var first := _diet("isotropic").shares[GGX].bytes
+	assert_int(first.size()).is_greater(1000)
+	assert_array(Array(first)).is_equal(Array(_diet("isotropic").shares[GGX].bytes))

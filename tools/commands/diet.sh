@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# reports what an export takes along of the ready tables, and why (SCENE|PROJECT [--json FILE])
+source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
+
+usage() {
+  cat <<USAGE
+usage: ./dev diet SCENE|PROJECT [--json FILE]
+
+SCENE          a .tscn or .scn with all that it depends on
+PROJECT        a folder with a project.godot and this addon: all its files
+--json FILE    the same as numbers
+
+Exports leave out sets of tables that nothing uses, and cut the others to the widths that materials can reach; the
+preset's option "Lobelight > Cut Tables" turns that off. This says what they would do. Scenes and resources are looked
+through; numbers that scripts assign to roughness, anisotropy and the clear coat's count; what else scripts do with
+them is not known, and then all widths stay, unless the root of a scene says what its scripts reach, by the metadata
+"lobelight_reach": {"roughness": [0.2, 0.5], "anisotropy": [0.0, 0.9]}.
+USAGE
+}
+
+help_if_asked "$@"
+subject=""
+json=""
+while (($# > 0)); do
+  case $1 in
+    --json)
+      [[ -n ${2:-} ]] || die "diet: --json needs a value"
+      json=$(realpath -m -- "$2")
+      shift
+      ;;
+    -*) die "diet: there is no option '$1'; ./dev diet --help lists them" ;;
+    *)
+      [[ -z $subject ]] || die "diet: one scene or project at a time, not '$1' too"
+      subject=$(realpath -m -- "$1")
+      ;;
+  esac
+  shift
+done
+[[ -n $subject ]] || die "diet: which scene or project? ./dev diet SCENE|PROJECT"
+[[ -e $subject ]] || die "diet: $subject does not exist"
+[[ -z $json || -d $(dirname -- "$json") ]] || die "diet: $json: its folder does not exist"
+
+# The project that the scene, or the folder, is in.
+project=$subject
+[[ -d $project ]] || project=$(dirname "$project")
+while [[ ! -f $project/project.godot ]]; do
+  [[ $project != / ]] || die "diet: $subject is in no project: there is no project.godot above it"
+  project=$(dirname "$project")
+done
+arguments=()
+if [[ -f $subject ]]; then
+  [[ $subject == *.tscn || $subject == *.scn ]] || die "diet: $subject is not a scene (.tscn, .scn)"
+  arguments+=(--scene "res://${subject#"$project/"}")
+elif [[ $subject != "$project" ]]; then
+  die "diet: $subject has no project.godot"
+fi
+[[ -z $json ]] || arguments+=(--json "$json")
+script=addons/lobelight/editor/export/diet_command.gd
+[[ -f $project/$script ]] || die "diet: $project does not have this addon in addons/lobelight"
+
+need_engine
+if [[ $project -ef $ROOT ]]; then
+  need_import
+elif [[ ! -f $project/.godot/global_script_class_cache.cfg ]]; then
+  die "diet: $project has not been opened in the editor yet"
+fi
+"$GODOT" --headless --no-header --path "$project" --script "res://$script" -- "${arguments[@]}"
