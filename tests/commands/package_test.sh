@@ -59,6 +59,15 @@ only_the_addon() {
     && ! grep -E '_test\.gd|doc_classes|\.o$' <<<"$names"
 }
 
+# What an archive of the repository unpacks, which asset libraries offer: the addon without the library and what names it.
+archive_is_an_addon() {
+  local names
+  names=$(git -C "$ROOT" archive --worktree-attributes HEAD | tar --list) \
+    && grep -qx 'addons/lobelight/runtime/lobe_material_3d.gd' <<<"$names" \
+    && ! grep -vE '^addons/$|^addons/lobelight/' <<<"$names" \
+    && ! grep -E '\.gdextension|doc_classes|/bin/' <<<"$names"
+}
+
 unpack() {
   cp -r "$ROOT/tests/commands/new_project" "$project" && rm "$project/.gdignore" \
     && mv "$project/project.template" "$project/project.godot" \
@@ -134,6 +143,9 @@ make_package() {
 expect "a package" make_package
 expect "equal bytes on the second run" same_bytes
 expect "the addon and nothing else" only_the_addon
+if [[ -e $ROOT/.git ]]; then
+  expect "an archive of the repository is the addon, too" archive_is_an_addon
+fi
 expect "unpacked" unpack
 expect "the editor opens" open_first
 expect "the plugin is switched on" enable_plugin
