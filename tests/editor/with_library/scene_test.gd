@@ -117,3 +117,12 @@ func test_the_menu_is_under_tools_once() -> void:
 	var menus := Kit.find_all(EditorInterface.get_base_control(), ToolsMenu)
 	assert_int(menus.size()).is_equal(1)
 	assert_int((menus[0] as PopupMenu).item_count).is_equal(3)
+
+
+func test_the_resources_are_offered_where_the_guide_says() -> void:
+	Kit.get_plugin(get_tree())
+	var picker: EditorResourcePicker = auto_free(EditorResourcePicker.new())
+	picker.base_type = "BaseMaterial3D,ShaderMaterial"
+	assert_array(Array(picker.get_allowed_types())).contains("LobeMaterial3D")
+	picker.base_type = "LobeTable"
+	assert_array(Array(picker.get_allowed_types())).contains("LobeTable")

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Takes the guide's pictures in the running editor, on a display of its own: pictures.sh [FOLDER]
+source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
+
+folder=$(realpath -m -- "${1:-$ROOT/docs/guide/pictures}")
+need_engine
+need_python ""
+need_library
+need_display
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+project=$work/project
+
+bash "$ROOT/tools/testing/editor_project.sh" "$project"
+rm -rf "$project"/{tests,addons/editor_tests,addons/gdUnit4}
+cp -r "$ROOT/tools/guide/camera" "$project/addons/guide_camera"
+sed -i 's|^enabled=.*|enabled=PackedStringArray("res://addons/guide_camera/plugin.cfg")|' "$project/project.godot"
+mkdir "$work/pictures"
+step "Taking the guide's pictures" timeout 600 bash "$ROOT/tools/lib/with_display.sh" "$GODOT" --path "$project" --editor \
+  --audio-driver Dummy --rendering-method gl_compatibility --rendering-driver opengl3 --single-window \
+  ++ --guide-pictures "$work/pictures"
+mkdir -p "$folder"
+# 256 colours are enough for the editor and a third of the size.
+"$PYTHON" - "$work/pictures" "$folder" <<'PYTHON'
+import sys
+from pathlib import Path
+
+from PIL import Image
+
+for picture in sorted(Path(sys.argv[1]).glob("*.png")):
+    Image.open(picture).quantize(256, dither=Image.Dither.NONE).save(Path(sys.argv[2]) / picture.name, optimize=True)
+PYTHON
+say "The pictures are in $folder"
