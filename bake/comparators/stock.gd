@@ -1,60 +1,53 @@
 extends ComparisonMethod
 ## `stock`: Godot's own StandardMaterial3D under its own sky, of the same panorama.
 ##
-## Metallic 1, white, nothing but reflected light. Roughness and anisotropy are what
-## [method LobeMaterial3D.to_standard] makes of the widths; where the bitangent is wider, the flow
-## map turns them. It is drawn on a mesh, because normals cannot be handed to the material, and by a
-## camera so far away that the engine's directions to the viewer, which are those of a perspective
-## camera, are parallel.
+## Metallic 1, white, nothing but reflected light, by a shader that hands the engine's lighting what
+## StandardMaterial3D's does, on the quad that all methods are drawn on.
+## Roughness and anisotropy have the widths as [LobeMaterial3D] does; where the bitangent is wider,
+## the flow turns them. The camera is so far away that the engine's directions to the viewer, which
+## are those of a perspective camera, are parallel.
 ##
 ## What cannot be matched: the engine's BRDF is GGX, its albedo an approximation (0.83 at a
 ## roughness of 0.32), widths go to 10:1; its radiance map ends at 2 in Mobile (RGB10A2); in
 ## Compatibility the sky's linear texels are taken for sRGB.
 
+const FRAGMENT_PATH := "res://bake/comparators/stock.gdshaderinc"
 const Widths := preload("res://addons/lobelight/runtime/widths.gd")
 # The engine's directions to the viewer are off by the sphere's radius over this.
 const _DISTANCE := 1000.0
-# Chords so short that pictures of 256 pixels miss a hundredth of one at the edge.
-const _RINGS := 128
-
 ## Of the engine's map; its default is 256.
 var radiance_size := Sky.RADIANCE_SIZE_512
 
 var _panorama: Texture2D
 var _roughness := 0.0
 var _anisotropy := 0.0
-var _material: BaseMaterial3D
+var _is_turned := false
 
 
 func prepare(stage: ComparisonStage) -> String:
 	_panorama = stage.panorama
 	var widths := Vector2(alpha[0], alpha[1])
-	var is_turned := widths.y > widths.x
-	var parameters := Widths.to_roughness(Vector2(widths.y, widths.x) if is_turned else widths)
+	_is_turned = widths.y > widths.x
+	var parameters := Widths.to_roughness(Vector2(widths.y, widths.x) if _is_turned else widths)
 	_roughness = parameters.x
 	_anisotropy = minf(parameters.y, 1.0)
-	var material := LobeMaterial3D.new()
-	material.albedo = Color.WHITE
-	material.metallic = 1.0
-	material.roughness = _roughness
-	material.anisotropy = _anisotropy
-	material.anisotropy_rotation = 0.5 * PI if is_turned else 0.0
-	_material = material.to_standard()
-	# Where there is no ambient light, the engine takes reflections for occluded.
-	_material.disable_specular_occlusion = true
 	return ""
 
 
 func make_sphere() -> MeshInstance3D:
-	var mesh := SphereMesh.new()
-	mesh.radius = 1.0
-	mesh.height = 2.0
-	mesh.rings = _RINGS
-	mesh.radial_segments = 2 * _RINGS
-	mesh.material = _material
-	var sphere := MeshInstance3D.new()
-	sphere.mesh = mesh
-	return sphere
+	var material := ShaderMaterial.new()
+	material.shader = Shader.new()
+	# What is not written is not in the compiled shader: an isotropic one is without anisotropy.
+	var defines := "#define STOCK_ANISOTROPIC\n" if _anisotropy > 0.0 else ""
+	material.shader.code = (
+		'shader_type spatial;\nrender_mode specular_schlick_ggx, %s;\n%s#include "%s"\n'
+		% ["specular_occlusion_disabled", defines, FRAGMENT_PATH]
+	)
+	material.set_shader_parameter(&"stock_metallic", 1.0)
+	material.set_shader_parameter(&"stock_roughness", _roughness)
+	material.set_shader_parameter(&"stock_anisotropy", _anisotropy)
+	material.set_shader_parameter(&"stock_flow", Vector2.DOWN if _is_turned else Vector2.RIGHT)
+	return SphereImpostor.make_quad(material)
 
 
 func set_up_viewport(viewport: LinearViewport) -> void:
@@ -78,7 +71,7 @@ func cost() -> Dictionary:
 
 func settings() -> Dictionary:
 	return {
-		"material": _material.get_class(),
+		"shader": "as StandardMaterial3D makes it, on the methods' quad",
 		"roughness": _roughness,
 		"anisotropy": _anisotropy,
 		# RADIANCE_SIZE_32 is 0, each next one twice as large.
