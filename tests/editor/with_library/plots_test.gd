@@ -88,7 +88,7 @@ func test_an_empty_table_says_so() -> void:
 func test_a_table_without_a_report_is_drawn_without_errors() -> void:
 	var table := LobeTable.make_single_lobe()
 	var view := await _inspect(table)
-	assert_str(view.get_figures()).contains("1 lobes")
+	assert_str(view.get_figures()).contains("1 lobe ×")
 	assert_float(view.get_error_map().get_worst()).is_equal(0.0)
 	assert_int(view.get_slice_plot().get_slice().size()).is_equal(0)
 

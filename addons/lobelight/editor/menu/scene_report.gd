@@ -4,6 +4,7 @@ extends Object
 
 const SceneUsage := preload("scene_usage.gd")
 const SceneWarnings := preload("../warnings/scene_warnings.gd")
+const Wording := preload("../wording.gd")
 
 # A half-float cube map with all its levels: 6 · 8 bytes a texel and a third more.
 const _CUBE_BYTES := 64.0
@@ -36,13 +37,13 @@ static func describe_table(table: LobeTable) -> String:
 	if problem:
 		return "%s: %s" % [_name(table), problem]
 	return (
-		"%s: %s (%s, %s), %d lobes, %s"
+		"%s: %s (%s, %s), %s, %s"
 		% [
 			_name(table),
 			table.brdf,
 			String.num(table.alpha.x, 4),
 			String.num(table.alpha.y, 4),
-			table.lobe_count,
+			Wording.count(table.lobe_count, "lobe"),
 			String.humanize_size(table.image.get_data().size()),
 		]
 	)
@@ -51,8 +52,13 @@ static func describe_table(table: LobeTable) -> String:
 static func _describe_material(material: LobeMaterial3D, nodes: Array) -> String:
 	var fetches := material.get_fetches()
 	return (
-		"%s: %d fetches of the environment and %d of tables a pixel, on %d nodes"
-		% [_name(material), fetches["environment"], fetches["table"], nodes.size()]
+		"%s: %s of the environment and %d of tables a pixel, on %s"
+		% [
+			_name(material),
+			Wording.count(fetches["environment"], "fetch", "fetches"),
+			fetches["table"],
+			Wording.count(nodes.size(), "node"),
+		]
 	)
 
 

@@ -9,6 +9,7 @@ const Recipe := preload("../bake/bake_recipe.gd")
 const SceneConversionMenu := preload("../scene_conversion_menu.gd")
 const SceneReport := preload("scene_report.gd")
 const SceneUsage := preload("scene_usage.gd")
+const Wording := preload("../wording.gd")
 
 const TITLE := "Lobelight"
 
@@ -35,7 +36,11 @@ func choose(item: int) -> void:
 		Item.BAKE:
 			var count := bake_all(root)
 			_say(
-				"%d tables are being baked." % count if count > 0 else "No table to be baked here."
+				(
+					"Baking %s." % Wording.count(count, "table")
+					if count > 0
+					else "There is no table to be baked in this scene."
+				)
 			)
 		Item.REPORT:
 			_show_report(SceneReport.describe(root))

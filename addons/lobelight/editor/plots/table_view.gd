@@ -9,6 +9,7 @@ const LobeDisc := preload("lobe_disc.gd")
 const Recipe := preload("../bake/bake_recipe.gd")
 const SlicePlot := preload("slice_plot.gd")
 const SphereComparison := preload("../preview/sphere_comparison.gd")
+const Wording := preload("../wording.gd")
 
 ## The table that is shown.
 var table: LobeTable
@@ -133,9 +134,9 @@ func _describe(report: Dictionary) -> String:
 			% [table.brdf, isotropic, String.num(table.alpha.x, 4), String.num(table.alpha.y, 4)]
 		),
 		(
-			"%d lobes × %d × %d views, %s"
+			"%s × %d × %d views, %s"
 			% [
-				table.lobe_count,
+				Wording.count(table.lobe_count, "lobe"),
 				table.views.x,
 				table.views.y,
 				String.humanize_size(table.image.get_data().size()),
