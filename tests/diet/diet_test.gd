@@ -19,6 +19,27 @@ const LEFT := [
 	["declared", 0.25, 0.0],
 ]
 
+## Lines of scripts after which not everything is known, and some that change nothing.
+const LINES := [
+	["material.roughness = 0.3", true],
+	["material.anisotropy = -0.5  # brushed", true],
+	["var material := LobeMaterial3D.new()", true],
+	["position = Vector3(0.1, 0.2, 0.3)", true],
+	['node.set("visible", false)', true],
+	["material.roughness += 0.1", false],
+	["material.roughness = wanted", false],
+	['material.set("roughness", 0.1)', false],
+	["material.set(property, 0.1)", false],
+	['create_tween().tween_property(material, "anisotropy", 1.0, 2.0)', false],
+	["create_tween().tween_property(material, property, 1.0, 2.0)", false],
+	["mesh.material = LobeMaterial3D.from_standard(mesh.material)", false],
+	["extends LobeMaterial3D", false],
+	["set(value):", true],
+	["material.orm_texture = texture", false],
+	["material.table = null", false],
+	["func use(material: LobeMaterial3D) -> void:", true],
+]
+
 ## Pairs of roughness and anisotropy.
 const SURFACES := [
 	[0.35, 0.0],
@@ -115,3 +136,19 @@ func test_a_cut_set_is_saved_as_equal_bytes() -> void:
 	var first := _diet("isotropic").shares[GGX].bytes
 	assert_int(first.size()).is_greater(1000)
 	assert_array(Array(first)).is_equal(Array(_diet("isotropic").shares[GGX].bytes))
+
+
+func test_lines_of_scripts(line: String, is_known: bool, _test_parameters := LINES) -> void:
+	var file := "user://diet_line.gd"
+	var script := FileAccess.open(file, FileAccess.WRITE)
+	script.store_string("extends Node\n\n\nfunc _ready() -> void:\n\t%s\n" % line)
+	script.close()
+	var reach := Reach.of_files(PackedStringArray([SCENES + "isotropic.tscn", file]))
+	DirAccess.remove_absolute(file)
+	assert_bool(reach.sets[GGX].whole_because.is_empty()).is_equal(is_known)
+
+
+func test_animated_widths_are_not_known_and_sets_that_scripts_are_given_stay() -> void:
+	var reach := Reach.of_files(PackedStringArray([SCENES + "animated.tscn"]))
+	assert_str(reach.sets[GGX].whole_because).contains("animates")
+	assert_str(reach.sets[WARD].whole_because).contains("names it")

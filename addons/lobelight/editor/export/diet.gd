@@ -66,7 +66,8 @@ static func _share_of(path: String, reach: Reach.SetReach) -> Share:
 	)
 	if part != whole:
 		share.bytes = _file_bytes(part)
-		share.after = share.bytes.size()
+		# Where it could not be written, the whole set goes along.
+		share.after = share.before if share.bytes.is_empty() else share.bytes.size()
 	return share
 
 

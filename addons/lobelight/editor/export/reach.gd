@@ -13,10 +13,13 @@ const Widths := preload("../../runtime/widths.gd")
 
 const TABLES := "res://addons/lobelight/tables/"
 const DECLARATION := "metadata/lobelight_reach"
-const SCENES: PackedStringArray = ["tscn", "scn"]
-const RESOURCES: PackedStringArray = ["tres", "res", "material", "mesh"]
+const SCENES: PackedStringArray = ["tscn", "scn", "glb", "gltf", "fbx", "blend", "dae"]
+const RESOURCES: PackedStringArray = [
+	"tres", "res", "material", "mesh", "meshlib", "multimesh", "anim"
+]
 const SCRIPTS: PackedStringArray = ["gd", "cs"]
 const WIDTHS := "roughness|anisotropy|clearcoat_roughness|clearcoat"
+const TEXTURES := "roughness_texture|orm_texture|anisotropy_flowmap"
 
 
 ## What is known of one set.
@@ -45,13 +48,32 @@ var _materials: Array[Array] = []
 var _numbers: Dictionary[String, PackedFloat64Array] = {}
 var _unknown: PackedStringArray = []
 var _declared := false
-var _made_by_script: PackedStringArray = []
+# Files that may make materials; those have what a new one has, and what scripts assign.
+var _made_by_script: Dictionary[String, bool] = {}
 var _named_sets: Dictionary[String, String] = {}
 var _seen: Dictionary[int, bool] = {}
 var _assignment := RegEx.create_from_string(
 	"\\.(%s)\\s*=\\s*(-?[0-9]*\\.?[0-9]+)\\s*;?\\s*(#.*|//.*)?$" % WIDTHS
 )
-var _mention := RegEx.create_from_string("\\b(%s)\\b" % WIDTHS)
+var _mention := RegEx.create_from_string("\\b(%s|%s)\\b" % [WIDTHS, TEXTURES])
+# Properties whose names are not written there.
+var _dynamic := RegEx.create_from_string(
+	(
+		"\\.(set|set_deferred|set_indexed|Set|SetDeferred|SetIndexed)\\(\\s*[^\"'&^\\s)]"
+		+ "|\\b(tween_property|TweenProperty)\\([^,]+,\\s*[^\"'&^\\s]"
+	)
+)
+# Where the class is named only to say what a variable holds.
+var _type := RegEx.create_from_string(
+	"(:|->|\\bas\\b|\\bis\\b|\\bnot\\b|\\[|,)\\s*LobeMaterial3D\\b(?!\\s*\\.)"
+)
+# Materials with widths that the line does not tell.
+var _other_widths := RegEx.create_from_string(
+	(
+		"\\bextends\\s+(LobeMaterial3D|.*lobe_material_3d)|\\b(from_standard|table_at)\\("
+		+ "|\\b(table|table_set)\\s*=\\s*null\\b"
+	)
+)
 var _mentioned_set := RegEx.create_from_string("(\\w+)\\.res\\b")
 
 
@@ -161,6 +183,10 @@ func _look_at(file: String, value: Variant) -> void:
 			_read_script(file, (resource as Script).source_code)
 	elif resource is LobeMaterial3D:
 		_materials.append([file, resource])
+		_look_at(file, (resource as LobeMaterial3D).next_pass)
+	elif resource is LobeTableSet:
+		# A script may give it to a material.
+		_named_sets[resource.resource_path] = file
 	elif resource is Animation:
 		_look_at_animation(file, resource)
 	else:
@@ -184,17 +210,18 @@ func _read_script(file: String, text: String) -> void:
 		var assigned := _assignment.search(code)
 		if assigned != null:
 			_add_number(assigned.get_string(1), assigned.get_string(2).to_float())
-		elif _mention.search(code) != null:
+		elif _mention.search(code) != null or _dynamic.search(code) != null:
 			_unknown.append("%s: %s" % [file, code.left(80)])
 		for found in _mentioned_set.search_all(code):
 			var path := TABLES + found.get_string(0)
 			if FileAccess.file_exists(path):
 				_named_sets[path] = file
-		if "LobeMaterial3D.new()" in code or "new LobeMaterial3D" in code:
-			_made_by_script.append(file)
-		elif "LobeMaterial3D.from_standard" in code or "table_at(" in code:
+		var no_types := _type.sub(code, "", true)
+		if "LobeMaterial3D" in no_types or "lobe_material_3d" in no_types:
+			_made_by_script[file] = true
+		if _other_widths.search(code) != null:
 			_unknown.append("%s: %s" % [file, code.left(80)])
-			_made_by_script.append(file)
+			_made_by_script[file] = true
 
 
 func _add_number(property: String, number: float) -> void:
@@ -217,7 +244,8 @@ func _conclude() -> void:
 			named.needed_by.append(_named_sets[path])
 	if not _declared and not _unknown.is_empty():
 		for reach: SetReach in sets.values():
-			reach.whole_because = _unknown[0]
+			if reach.whole_because.is_empty():
+				reach.whole_because = _unknown[0]
 
 
 func _get_set(path: String) -> SetReach:
