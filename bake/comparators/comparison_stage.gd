@@ -6,12 +6,17 @@ extends RefCounted
 const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
 const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
 const DualParaboloidMap := preload("dual_paraboloid_map.gd")
+const PrefilteredMap := preload("prefiltered_map.gd")
 const FILTERS: Dictionary[String, LobeEnvironment3D.Filter] = {
 	"box": LobeEnvironment3D.Filter.BOX,
 	"binomial": LobeEnvironment3D.Filter.BINOMIAL,
 	"gaussian": LobeEnvironment3D.Filter.GAUSSIAN,
 	"disc": LobeEnvironment3D.Filter.DISC,
 }
+
+const _MEASURED_UPDATES := 3
+# The times of the GPU come some frames late.
+const _FRAMES_LATE := 4
 
 var tree: SceneTree
 var panorama: Texture2D
@@ -35,6 +40,8 @@ var fis_bias := 0.0
 
 var _environment: LobeEnvironment3D
 var _lights: Dictionary[String, EnvironmentLight] = {}
+var _prefiltered: Dictionary[String, PrefilteredMap] = {}
+var _update_times: Dictionary[String, float] = {}
 var _map: DualParaboloidMap
 
 
@@ -65,14 +72,34 @@ func bake(recipe: Dictionary, title: String) -> Dictionary:
 ## To be awaited.
 func light_materials() -> String:
 	if _environment == null:
-		_environment = LobeEnvironment3D.new()
-		_environment.filter = FILTERS[filter]
-		_environment.size = pyramid_size
-		_environment.panorama = panorama
+		_environment = _make_environment(filter)
 		tree.root.add_child(_environment)
 	if _environment.get_cubemap() == null and not await _environment.rebuild():
 		return _environment.get_rebuild_error()
 	return ""
+
+
+## GPU milliseconds of an update of the pyramid made with the filter [param used_filter], which is
+## what a changing environment costs; 0 where the driver gives no times. To be awaited.
+func update_time(used_filter: String) -> float:
+	if _update_times.has(used_filter):
+		return _update_times[used_filter]
+	if not (await light_materials()).is_empty():
+		return 0.0
+	_environment.filter = FILTERS[used_filter]
+	_environment.measure_cost = true
+	_environment.update_mode = LobeEnvironment3D.UpdateMode.EVERY_FRAME
+	for frame in _MEASURED_UPDATES:
+		await RenderingServer.frame_post_draw
+	_environment.update_mode = LobeEnvironment3D.UpdateMode.ONCE
+	for frame in _FRAMES_LATE:
+		await RenderingServer.frame_post_draw
+	_update_times[used_filter] = _environment.update_gpu_time
+	_environment.measure_cost = false
+	_environment.filter = FILTERS[filter]
+	_environment.update_mode = LobeEnvironment3D.UpdateMode.WHEN_CHANGED
+	await _environment.rebuild()
+	return _update_times[used_filter]
 
 
 ## Texels along the side of the faces that light materials; 0 before [method light_materials].
@@ -86,22 +113,28 @@ func face_size() -> int:
 func light(used_filter: String) -> EnvironmentLight:
 	if _lights.has(used_filter):
 		return _lights[used_filter]
-	var environment := LobeEnvironment3D.new()
-	environment.filter = FILTERS[used_filter]
-	environment.size = pyramid_size
-	environment.panorama = panorama
+	# The one that lights materials has it already.
+	var is_shared := used_filter == filter and face_size() > 0
+	var environment := _environment if is_shared else _make_environment(used_filter)
 	var made: EnvironmentLight = null
-	if await environment.rebuild():
-		made = EnvironmentLight.new()
-		made.cubemap = environment.get_cubemap()
-		made.size = made.cubemap.get_width()
-		var kind := FILTERS[used_filter] as Pyramid.Filter
-		made.level_variance = Pyramid.LEVEL_VARIANCES[kind]
-		made.base_variance = Pyramid.base_variance(panorama, made.size, kind)
-		made.is_even = Pyramid.is_round(kind)
+	if is_shared or await environment.rebuild():
+		made = _light_of(environment, FILTERS[used_filter] as Pyramid.Filter)
 		_lights[used_filter] = made
-	environment.free()
+	if not is_shared:
+		environment.free()
 	return made
+
+
+## The panorama filtered for a BRDF of these widths, made once for equal arguments; null on failure.
+## To be awaited.
+func prefiltered_map(brdf: String, widths: PackedFloat64Array, size: int) -> PrefilteredMap:
+	var key := str([brdf, widths, size])
+	if not _prefiltered.has(key):
+		var source := await light("box")
+		if source == null:
+			return null
+		_prefiltered[key] = await PrefilteredMap.make(source, brdf, widths, size, tree)
+	return _prefiltered[key]
 
 
 ## The panorama as a dual-paraboloid map, whose halves have about the texels of three faces of the
@@ -111,3 +144,21 @@ func dual_paraboloid_map() -> DualParaboloidMap:
 		var side := 2 * Pyramid.automatic_size(panorama)
 		_map = await DualParaboloidMap.make(panorama, side, tree)
 	return _map
+
+
+func _make_environment(used_filter: String) -> LobeEnvironment3D:
+	var environment := LobeEnvironment3D.new()
+	environment.filter = FILTERS[used_filter]
+	environment.size = pyramid_size
+	environment.panorama = panorama
+	return environment
+
+
+static func _light_of(environment: LobeEnvironment3D, kind: Pyramid.Filter) -> EnvironmentLight:
+	var made := EnvironmentLight.new()
+	made.cubemap = environment.get_cubemap()
+	made.size = made.cubemap.get_width()
+	made.level_variance = Pyramid.LEVEL_VARIANCES[kind]
+	made.base_variance = Pyramid.base_variance(environment.panorama, made.size, kind)
+	made.is_even = Pyramid.is_round(kind)
+	return made

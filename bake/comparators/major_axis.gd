@@ -22,9 +22,6 @@ func prepare(stage: ComparisonStage) -> String:
 	var problem := Microfacet.find_problem(self)
 	if not problem.is_empty():
 		return problem
-	var light := await stage.light("box")
-	if light == null:
-		return "the renderer did not draw the pyramid."
 	# Texels half as wide as the panorama's.
 	@warning_ignore("integer_division")
 	var size := maxi(ComparisonStage.Pyramid.automatic_size(stage.panorama) / 2, 32)
@@ -32,7 +29,7 @@ func prepare(stage: ComparisonStage) -> String:
 	var widths := PackedFloat64Array()
 	for level in _last_level + 1:
 		widths.append(pow(float(level) / _last_level, 2.0))
-	_map = await PrefilteredMap.make(light, brdf, widths, size, stage.tree)
+	_map = await stage.prefiltered_map(brdf, widths, size)
 	return "" if _map != null else "the renderer did not draw the prefiltered map."
 
 

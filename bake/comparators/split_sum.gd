@@ -26,12 +26,9 @@ func prepare(stage: ComparisonStage) -> String:
 	_width = 0.5 * (alpha[0] + alpha[1])
 	var anisotropy := (alpha[0] - alpha[1]) / (alpha[0] + alpha[1])
 	_bend = anisotropy * minf(5.0 * sqrt(_width), 1.0)
-	var light := await stage.light("box")
-	if light == null:
-		return "the renderer did not draw the pyramid."
 	# A texel is a sixth of the lobe's deviation or less, where the map can be as large.
 	var size := clampi(nearest_po2(ceili(8.0 / _width)), 32, 512)
-	_map = await PrefilteredMap.make(light, brdf, [_width], size, stage.tree)
+	_map = await stage.prefiltered_map(brdf, [_width], size)
 	return "" if _map != null else "the renderer did not draw the prefiltered map."
 
 

@@ -348,6 +348,16 @@ class PageTest(unittest.TestCase):
         markdown, _ = self.write(self.entries())
         self.assertIn("teapot without shadows | GGX (0.05, 0.3) | 1 of 2 | 0.210 % |", markdown)
 
+    def test_a_changing_environment_costs_an_update(self):
+        entries = self.entries()
+        settings = {"gmm8": 9.0, "splitsum": 49.8}
+        for method, time in settings.items():
+            entries[0]["methods"][method]["settings"] = {"prefilter_ms": time}
+        markdown, _ = self.write(entries)
+        # (49.8 + 0.2) / (9 + 1).
+        self.assertIn("| Ward (0.1, 0.1) | splitsum | 49.8 | 0.20 | 5.00 | 30.0 |", markdown)
+        self.assertNotIn("| Ward (0.1, 0.1) | fis40 | ", markdown.split("When the environment changes")[1].split("</details>")[0])
+
     def test_html_is_escaped(self):
         html = document.html_page("a < b", [document.Text("1 < 2 & `x<y>` **bold** [a](b.md)")])
         self.assertIn("1 &lt; 2 &amp; <code>x&lt;y&gt;</code> <strong>bold</strong>", html)

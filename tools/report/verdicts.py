@@ -18,11 +18,11 @@ DESCRIPTIONS = {
     "toral": "Töral 2015 as written: independent fits, nearest view, dual-paraboloid map with 2 × 2 means, eq. 2.11",
     "fis": "filtered importance sampling, Colbert and Křivánek 2007, as many samples, on 2 × 2 means; `fis40g` on our pyramid",
     "allfreq": "all-frequency rendering, Wang et al. 2009: one spherical Gaussian by spherical warp, or eight",
-    "asg": "anisotropic spherical Gaussians, Xu et al. 2013",
-    "majoraxis": "samples along the BRDF's major axis on a prefiltered map, Cocco, Chermain et al.",
+    "asg": "one anisotropic spherical Gaussian, Xu et al. 2013",
+    "majoraxis": "samples along the BRDF's major axis on a prefiltered map, Cocco, Zanni and Chermain 2024",
     "closed": "lobes from a closed form, without a table",
-    "splitsum": "split sum with an exactly prefiltered map",
-    "stock": "Godot's `StandardMaterial3D` under the engine's own sky reflection",
+    "splitsum": "split sum with a map filtered for this very width; a bent normal for different widths",
+    "stock": "Godot's `StandardMaterial3D` under the engine's own sky; always GGX, ratios up to 10:1",
 }
 
 
@@ -268,7 +268,7 @@ def methods(page):
         family = next((name for name in DESCRIPTIONS if method.startswith(name)), "")
         seen = [e for e in page.entries if method in e["methods"] and not e["stage"]]
         settings = seen[0]["methods"][method]["settings"] if seen else {}
-        said = ", ".join(f"{name} {plain(value)}" for name, value in settings.items())
+        said = ", ".join(f"{name} {plain(value)}" for name, value in settings.items() if name != "prefilter_ms")
         where = joined(dict.fromkeys(e["renderer"] for e in seen)) if seen else "–"
         rows.append([method, DESCRIPTIONS.get(family, ""), said, where])
     page.table(["method", "what it is", f"settings, {cases.material_name(cases.MATERIALS[0])} where measured", "drawn in"], rows, 4)
