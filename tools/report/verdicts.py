@@ -271,7 +271,7 @@ def methods(page):
         said = ", ".join(f"{name} {plain(value)}" for name, value in settings.items() if name != "prefilter_ms")
         where = joined(dict.fromkeys(e["renderer"] for e in seen)) if seen else "–"
         rows.append([method, DESCRIPTIONS.get(family, ""), said, where])
-    page.table(["method", "what it is", f"settings, {cases.material_name(cases.MATERIALS[0])} where measured", "drawn in"], rows, 4)
+    page.table(["method", "what it is", "settings in its first case", "drawn in"], rows, 4)
     reasons = {}
     for entry in page.entries:
         for method, reason in entry["unavailable"].items():
