@@ -18,9 +18,11 @@
 #include <half.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <random>
@@ -471,6 +473,65 @@ TEST_CASE("decode_exr refuses giant tiles") {
   Imf::StdOSStream stream;
   { Imf::TiledOutputFile file(stream, header, 0); }
   check_refused(bytes_of(stream), "has tiles of 10000 x 10000 pixels");
+}
+
+TEST_CASE("decode_exr refuses tiles that are far larger than the picture") {
+  // Found by ./dev fuzz: OpenEXR holds a row of tiles, here 960 MB as floats.
+  Imf::Header header = header_for(kRgb);
+  header.setTileDescription(Imf::TileDescription(8, 1 << 21));
+  Imf::StdOSStream stream;
+  { Imf::TiledOutputFile file(stream, header, 0); }
+  check_refused(bytes_of(stream), "has tiles of 8 x 2097152 pixels");
+}
+
+TEST_CASE("decode_exr reads a small picture in one larger tile") {
+  Imf::Header header = header_for(kRgb);
+  header.setTileDescription(Imf::TileDescription(512, 512));
+  Imf::StdOSStream stream;
+  {
+    const Pixels pixels(kRgb, header.dataWindow());
+    Imf::TiledOutputFile file(stream, header, 0);
+    file.setFrameBuffer(pixels.buffer());
+    file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+  }
+  check_picture(decode_exr(bytes_of(stream), "map.exr"), {0, 0});
+}
+
+// The most address space that this process has had, touched or not; 0 where Linux does not tell.
+std::int64_t peak_address_space() {
+  std::ifstream status("/proc/self/status");
+  std::string line;
+  while (std::getline(status, line)) {
+    if (line.rfind("VmPeak:", 0) == 0) return 1024 * std::stoll(line.substr(7));
+  }
+  return 0;
+}
+
+TEST_CASE(
+    "decode_exr: an attribute that claims to be larger than the file fails without its memory") {
+  // Found by ./dev fuzz: 1.8 GB for a file of 400 bytes.
+  Bytes bytes = scan_line_file(kRgb, header_for(kRgb));
+  const std::string name = std::string("screenWindowWidth") + '\0';
+  const auto found = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+  REQUIRE(found != bytes.end());
+  // A name and a type that OpenEXR does not know, then the length.
+  *found = 't';
+  const auto type = found + static_cast<std::ptrdiff_t>(name.size());
+  *type = 'g';
+  const std::array<std::uint8_t, 4> length = {0, 0, 0, 0x70};
+  std::copy(length.begin(), length.end(), type + 6);
+  const std::int64_t before = peak_address_space();
+  check_refused(bytes, "is damaged or not supported");
+  CHECK(peak_address_space() - before < std::int64_t{1} << 29);
+}
+
+TEST_CASE("decode_exr: messages are text whatever the channels are called") {
+  // Found by ./dev fuzz. Latin-1, an overlong form, a surrogate, and characters of 2, 3 and 4
+  // bytes.
+  const std::string name = "\xd9 \xc0\xaf \xed\xa0\x80 \xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80\x7f";
+  const std::vector<Channel> channels = {{name}};
+  check_refused(scan_line_file(channels, header_for(channels)),
+                "but ? ?? ??? \xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
 }
 
 TEST_CASE("decode_exr: what is no EXR") {

@@ -159,8 +159,12 @@ refuses "diet, nothing to look at" "SCENE|PROJECT" diet
 refuses "diet, a scene that is not there" "absent.tscn" diet absent.tscn
 refuses "diet, a file that is no scene" "is not a scene" diet "$root/README.md"
 refuses "diet, a folder without a project" "is in no project" diet "$work"
+refuses "fuzz, no time" "--minutes" fuzz
+refuses "fuzz, no time at all" "above 0" fuzz --minutes 0
+refuses "fuzz, an unknown reader" "exr hdr merl rgl" fuzz --minutes 1 --reader png
+refuses "fuzz, a seed that is no number" "--seed is 'x'" fuzz --minutes 1 --seed x
+refuses "fuzz, JSON in a missing folder" "missing/f.json" fuzz --minutes 1 --json missing/f.json
 refuses "an unknown command" "no-such-command" no-such-command
-refuses "a command that comes later" "not available yet" fuzz
 
 echo "commands: $passed passed, $failed failed"
 ((failed == 0))

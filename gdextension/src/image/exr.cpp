@@ -41,8 +41,9 @@ namespace {
 // Rows decoded at a time: a multiple of every compression's block of rows (1, 16, 32 or 256).
 constexpr int kBandRows = 256;
 
-// A tile is decoded as a whole.
+// OpenEXR holds a row of tiles, which may be twice as large as the picture within these limits.
 constexpr std::int64_t kMaxTileTexels = std::int64_t{1} << 26;
+constexpr std::int64_t kMaxTileTexelsOfSmallPicture = std::int64_t{1} << 22;
 
 // A window of a few pixels in a huge picture is no panorama, and filling the rest costs memory.
 constexpr std::int64_t kMaxTexelsPerFilledTexel = 64;
@@ -78,6 +79,11 @@ class MemoryReader : public Imf::IStream {
   }
   std::uint64_t tellg() override { return position_; }
   void seekg(std::uint64_t position) override { position_ = position; }
+#if __has_include(<ImfContextInit.h>)
+  // OpenEXR 3.3 and later then refuses an attribute that claims to be larger than the file before
+  // it allocates memory for it.
+  std::int64_t size() override { return static_cast<std::int64_t>(bytes_.size()); }
+#endif
 
   // Whether more was asked for than there is since the last call.
   bool take_ran_short() { return std::exchange(ran_short_, false); }
@@ -191,12 +197,24 @@ void check_header(const Imf::Header& header, const std::string& name) {
   if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE) {
     throw ImageError(name, "is a cube map, not a latitude-longitude panorama");
   }
-  if (header.hasTileDescription()) {
-    const Imf::TileDescription& tiles = header.tileDescription();
-    if (std::int64_t{tiles.xSize} * std::int64_t{tiles.ySize} > kMaxTileTexels) {
-      throw ImageError(name, "has tiles of " + std::to_string(tiles.xSize) + " x " +
-                                 std::to_string(tiles.ySize) + " pixels, which is too large");
-    }
+}
+
+// After check_windows(): the sizes are moderate.
+void check_tiles(const Imf::Header& header, const Window& data, const std::string& name) {
+  if (!header.hasTileDescription()) return;
+  const Imf::TileDescription& tiles = header.tileDescription();
+  const std::int64_t width = tiles.xSize, height = tiles.ySize;
+  if (width < 1 || height < 1) throw ImageError(name, "has tiles without pixels");
+  bool is_too_large = width * height > kMaxTileTexels;
+  if (!is_too_large) {
+    const std::int64_t in_a_row = (data.width() + width - 1) / width;
+    const std::int64_t allowed =
+        std::clamp(2 * data.width() * data.height(), kMaxTileTexelsOfSmallPicture, kMaxTileTexels);
+    is_too_large = in_a_row * width * height > allowed;
+  }
+  if (is_too_large) {
+    throw ImageError(name, "has tiles of " + std::to_string(width) + " x " +
+                               std::to_string(height) + " pixels, which is too large");
   }
 }
 
@@ -415,6 +433,7 @@ Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& n
     const Window display(header.displayWindow());
     const Window data(header.dataWindow());
     check_windows(display, data, name);
+    check_tiles(header, data, name);
     Imf::InputPart part(file, layer.part);
     stream.take_ran_short();  // reading ahead in the header is no fault
     Panorama image = layer.kind == ExrLayer::Kind::luminance_chroma
