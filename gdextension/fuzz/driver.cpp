@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <sanitizer/common_interface_defs.h>
+#include <sanitizer/lsan_interface.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -218,9 +219,10 @@ void fuzz_for_a_while() {
 }  // namespace lobelight::fuzz
 
 // Read before main(). Allocations that fail must throw or return null, as without sanitizers; an
-// abort (an exception that nobody catches) is reported like any other crash.
+// abort (an exception that nobody catches) is reported like any other crash. Leaks are looked for
+// by main(), so that they count as a failure like the others.
 extern "C" const char* __asan_default_options() {
-  return "allocator_may_return_null=1:handle_abort=1:detect_stack_use_after_return=1";
+  return "allocator_may_return_null=1:handle_abort=1:leak_check_at_exit=0";
 }
 extern "C" const char* __ubsan_default_options() { return "print_stacktrace=1"; }
 
@@ -240,6 +242,12 @@ int main(int count, char** arguments) {
   }
   std::printf("%-5s %9" PRIu64 " inputs, %9" PRIu64 " accepted, %9" PRIu64 " refused\n", kReader,
               tried, counts.accepted, counts.refused);
+  if (__lsan_do_recoverable_leak_check() != 0) {
+    const char* const leak = "leaks memory, as the sanitizer's report above says";
+    std::fprintf(stderr, "%s: the reader %s.\n", kReader, leak);
+    write_json(leak, "");
+    return 1;
+  }
   write_json("", "");
   return 0;
 }

@@ -16,6 +16,8 @@ again: build/cmake/fuzz/lobelight_fuzz_READER FILE. Inputs of merl are abridged 
 --json FILE  {"seed", "readers": [{"reader", "inputs", "accepted", "refused", "seconds", "failure", "input"}]}
 --seed N     of the mutations (default: 1); the same one gives the same inputs
 --reader R   only this one: exr, hdr, merl or rgl
+
+The last line is "fuzz: N passed, N failed", readers; the exit status is 1 if one failed.
 USAGE
 }
 
@@ -94,6 +96,7 @@ for reader in "${readers[@]}"; do
 done
 
 printf '%s\n' "${summary[@]}"
+echo "fuzz: $((${#readers[@]} - failed)) passed, $failed failed"
 if [[ -n $json ]]; then
   {
     printf '{"seed": %s, "readers": [\n' "$seed"

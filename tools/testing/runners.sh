@@ -25,13 +25,15 @@ judge() {
   [[ -s $RESULTS/$name.json ]] || die "test: what $name did could not be judged"
 }
 
-# Tests of the C++ core, through CTest.
+# Tests of the C++ core, through CTest, and a few seconds of its file readers under sanitizers.
 run_cpp() {
   need_native_tests
   rm -f "$RESULTS/cpp.xml"
   run_logged cpp ctest --test-dir "$ROOT/build/cmake" --timeout "$RUNNER_LIMIT" --parallel "$JOBS" \
     --no-tests=error --output-on-failure --output-junit "$RESULTS/cpp.xml"
   judge cpp --junit "$RESULTS/cpp.xml"
+  run_logged fuzz in_time bash "$ROOT/tools/commands/fuzz.sh" --minutes 0.1 --seed 1
+  judge fuzz
 }
 
 # The reduced set of ./dev stability.
