@@ -18,7 +18,7 @@ usage: ./dev report [--quick] [--device] [--renderers R,Râ€¦] [--maps FILE,FILEâ
                  below build/report with --quick, --maps, --renderers, --size, --samples or --timing-rounds)
 
 A run that was stopped goes on: cases that DIR/compare/results.json has, measured with the same sources and maps, are
-kept. Takes about 25 minutes on two cores. The metric is that of ./dev compare, and the pictures are drawn by its code.
+kept. Takes about 20 minutes on two cores. The metric is that of ./dev compare, and the pictures are drawn by its code.
 Methods, materials, maps and settings are those of tools/report/cases.py.
 USAGE
 }

@@ -36,7 +36,7 @@ OTHER = (("ggx", (0.1, 0.1)), ("ggx", (0.05, 0.2)))
 # Of which the thesis gives figures.
 THESIS_MATERIALS = (ISOTROPIC[0], ANISOTROPIC[0])
 MATERIALS = (*ISOTROPIC, *ANISOTROPIC, *OTHER)
-# In the renderers after the first, on a GPU, and on other maps than the timed one.
+# In the renderers after the first, on a GPU, on other maps than the timed one, and by other coverages.
 FEWER_MATERIALS = (ISOTROPIC[0], ISOTROPIC[2], ANISOTROPIC[0], ANISOTROPIC[1])
 STUDIED = (ISOTROPIC[0], ISOTROPIC[2], ANISOTROPIC[1])
 QUICK_MATERIALS = (ISOTROPIC[2], ANISOTROPIC[1])
@@ -54,7 +54,7 @@ COVERAGES = (0.77, 0.9)
 FIS_BIASES = (1.0,)
 FILTERS = ("box", "binomial", "gaussian", "disc")
 USUAL_FILTER = "disc"
-FACE_SIZES = (32, 64, 128, 256, 512)
+FACE_SIZES = (64, 128, 256, 512)
 ISOTROPIC_VIEWS = ((4, 1), (8, 1), (16, 1), (32, 1), (64, 1))
 ANISOTROPIC_VIEWS = ((4, 2), (8, 4), (16, 8), (32, 16))
 # GPU time over that of gmm8 in the same renderer; infinity: however long it takes.
@@ -119,7 +119,7 @@ def full(renderers=RENDERERS, given_maps=()):
     first, *others = renderers
     plan = _materials(first, MATERIALS, (TIMED_MAP,))
     plan += _materials(first, (*FEWER_MATERIALS, OTHER[0]), (*OTHER_MAPS, SYNTHETIC, *given_maps))
-    plan += _studies(first, STUDIED, MATERIALS, ISOTROPIC_VIEWS, ANISOTROPIC_VIEWS, FACE_SIZES)
+    plan += _studies(first, STUDIED, FEWER_MATERIALS, ISOTROPIC_VIEWS, ANISOTROPIC_VIEWS, FACE_SIZES)
     for renderer in others:
         plan += _materials(renderer, FEWER_MATERIALS, (TIMED_MAP,))
     return plan
@@ -153,15 +153,15 @@ def _materials(renderer, materials, maps):
     ]  # fmt: skip
 
 
-def _studies(renderer, studied, materials, isotropic_views, anisotropic_views, face_sizes):
+def _studies(renderer, studied, covered, isotropic_views, anisotropic_views, face_sizes):
     def cases(study, chosen, methods, stage, map_name=TIMED_MAP):
         return [Case(study, renderer, map_name, *material, (*methods, REFERENCE), stage=stage) for material in chosen]
 
     plan = []
     for coverage in COVERAGES:
         stage = {"toral_coverage": coverage}
-        plan += cases("coverage", materials, ("toral8", "toral16"), stage)
-        if len(materials) == len(MATERIALS):
+        plan += cases("coverage", covered, ("toral8", "toral16"), stage)
+        if covered == FEWER_MATERIALS:
             plan += cases("coverage", THESIS_MATERIALS, ("toral8", "toral16"), stage, SYNTHETIC)
     for bias in FIS_BIASES:
         plan += cases("bias", studied, ("fis8", "fis16", "fis40", "fis40g"), {"fis_bias": bias})
