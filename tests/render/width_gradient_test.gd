@@ -75,11 +75,18 @@ func test_no_band_and_no_jump(anisotropy: float, _test_parameters := OF_SMOOTH_L
 	@warning_ignore("integer_division")
 	var row := ROW * FINE_SIDE / SIDE
 	var worst := 0.0
+	var darkest := INF
+	var brightest := 0.0
 	for x in range(25, FINE_SIDE - 25):
 		var middle := image.get_pixel(x, row).g
+		darkest = minf(darkest, middle)
+		brightest = maxf(brightest, middle)
 		var bend := image.get_pixel(x - 1, row).g - 2.0 * middle + image.get_pixel(x + 1, row).g
 		worst = maxf(worst, absf(bend) / middle)
 	assert_float(worst).is_less(MOST_BEND)
+	# What is black or flat would have no bands either.
+	assert_float(darkest).is_greater(0.1)
+	assert_float(brightest).is_greater(1.2 * darkest)
 
 
 # A sphere whose roughness rises from left to right. To be awaited.
