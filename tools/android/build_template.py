@@ -69,7 +69,7 @@ def write_manifest(app, engine, out):
     """The app's manifest with what Gradle would add: package, SDK levels, and the engine's own entries."""
     text = (app / "src/main/AndroidManifest.xml").read_text(encoding="utf-8")
     text = re.sub(r'\s+tools:\w+="[^"]*"', "", text)
-    text = text.replace('xmlns:tools="http://schemas.android.com/tools"', "", 1)
+    text = re.sub(r'xmlns:tools="[^"]*"', "", text, count=1)
     text = text.replace("<manifest ", f'<manifest package="{PACKAGE}" ', 1)
     text = re.sub(r'android:(name|targetActivity)="\.', rf'android:\1="{PACKAGE}.', text)
     sdk = f'<uses-sdk android:minSdkVersion="{LEAST_SDK}" android:targetSdkVersion="{TARGET_SDK}"/>'

@@ -37,7 +37,7 @@ def project(artefacts, target):
     items = "".join(f"<artifactItem>{coordinates(artefact)}</artifactItem>" for artefact in artefacts)
     configuration = f"<outputDirectory>{target}</outputDirectory><prependGroupId>true</prependGroupId>"
     return (
-        '<project xmlns="http://maven.apache.org/POM/4.0.0"><modelVersion>4.0.0</modelVersion>'
+        "<project><modelVersion>4.0.0</modelVersion>"
         f"{coordinates(('lobelight', 'artefacts', '1'))}<packaging>pom</packaging><build><plugins><plugin>"
         f"{coordinates(PLUGIN)}<configuration>{configuration}<artifactItems>{items}</artifactItems></configuration>"
         "</plugin></plugins></build></project>"

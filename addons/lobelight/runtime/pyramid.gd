@@ -26,15 +26,8 @@ const MAX_AUTOMATIC_SIZE := 512
 ## The atlas of the faces.
 const COLUMNS := 3
 const ROWS := 2
-const _MAX_SAMPLES := 8
-# Between levels that blur by four times the variance of one another, and sharpness.
-const _BASE_SHARE := 0.5
-# The variance of the tent by which levels are looked up, in texels.
-const _TENT_VARIANCE := 1.0 / 6.0
-# Along the diameter of the kernel that level 0 is blurred with.
-const _KERNEL_SAMPLES := 8
-# Formats that hold linear light; the others hold sRGB.
-const _LINEAR_FORMATS: Array[Image.Format] = [
+## Formats that hold linear light; the others hold sRGB.
+const LINEAR_FORMATS: Array[Image.Format] = [
 	Image.FORMAT_RF,
 	Image.FORMAT_RGF,
 	Image.FORMAT_RGBF,
@@ -49,6 +42,13 @@ const _LINEAR_FORMATS: Array[Image.Format] = [
 	Image.FORMAT_ASTC_4x4_HDR,
 	Image.FORMAT_ASTC_8x8_HDR,
 ]
+const _MAX_SAMPLES := 8
+# Between levels that blur by four times the variance of one another, and sharpness.
+const _BASE_SHARE := 0.5
+# The variance of the tent by which levels are looked up, in texels.
+const _TENT_VARIANCE := 1.0 / 6.0
+# Along the diameter of the kernel that level 0 is blurred with.
+const _KERNEL_SAMPLES := 8
 
 var size := 0
 var filter := Filter.DISC
@@ -101,7 +101,7 @@ func set_up_panorama(
 	var format := RenderingServer.texture_get_format(panorama.get_rid())
 	var parameters: Dictionary[StringName, Variant] = {
 		&"panorama": panorama.get_rid(),
-		&"panorama_is_srgb": format not in _LINEAR_FORMATS,
+		&"panorama_is_srgb": format not in LINEAR_FORMATS,
 		&"panorama_as_sky": as_sky,
 		&"face_size": face_size,
 		&"samples": samples if level_0_variance == 0.0 else _KERNEL_SAMPLES,

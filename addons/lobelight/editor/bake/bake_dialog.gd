@@ -18,6 +18,8 @@ var _was_closed := false
 
 func _init(queue: BakeQueue = null) -> void:
 	_queue = queue
+	if queue != null:
+		queue.changed.connect(set_process.bind(true))
 	title = "Bake LobeTable"
 	exclusive = false
 	ok_button_text = "Hide"
@@ -43,6 +45,7 @@ func _process(delta: float) -> void:
 		_waited = 0.0
 		_was_closed = false
 		hide()
+		set_process(false)
 		return
 	_waited += delta
 	var waiting := _queue.get_waiting_count()

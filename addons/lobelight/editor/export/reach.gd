@@ -125,7 +125,8 @@ static func _collect(folder: String, filters: PackedStringArray, files: PackedSt
 
 
 static func _is_read(path: String) -> bool:
-	return path.get_extension() in SCENES + RESOURCES + SCRIPTS
+	var ending := path.get_extension()
+	return ending in SCENES or ending in RESOURCES or ending in SCRIPTS
 
 
 static func _is_excluded(path: String, filters: PackedStringArray) -> bool:

@@ -1,10 +1,8 @@
 @tool
-extends EditorImportPlugin
+extends "native_importer.gd"
 ## Imports measured BRDFs, MERL's .binary and the RGB .bsdf of the RGL database, as [LobeTable]s:
 ## [code]material.table = load("res://gold.binary")[/code].
 
-const NativeLibrary := preload("../bake/native_library.gd")
-const PanoramaImporter := preload("panorama_importer.gd")
 const Recipe := preload("../bake/bake_recipe.gd")
 const TableState := preload("../bake/table_state.gd")
 
@@ -23,28 +21,12 @@ func _get_recognized_extensions() -> PackedStringArray:
 	return Recipe.MEASURED_EXTENSIONS
 
 
-func _get_save_extension() -> String:
-	return "res"
-
-
 func _get_resource_type() -> String:
 	return "Resource"
 
 
 func _get_priority() -> float:
 	return 1.0
-
-
-func _get_import_order() -> int:
-	return 0
-
-
-func _get_preset_count() -> int:
-	return 1
-
-
-func _get_preset_name(_preset: int) -> String:
-	return "Default"
 
 
 func _get_import_options(_path: String, _preset: int) -> Array[Dictionary]:
@@ -66,10 +48,6 @@ func _get_import_options(_path: String, _preset: int) -> Array[Dictionary]:
 
 func _get_option_visibility(_path: String, option: StringName, options: Dictionary) -> bool:
 	return option != &"target" or options["lobes"] == Recipe.AUTOMATIC
-
-
-func _can_import_threaded() -> bool:
-	return false
 
 
 func _import(
@@ -103,5 +81,5 @@ static func bake(recipe: Recipe) -> Dictionary:
 	var baker := NativeLibrary.create(&"LobeBaker")
 	var result: Dictionary = baker.call("bake", recipe.to_request())
 	if result.has("error"):
-		result["error"] = PanoramaImporter.name_by_project(result["error"], recipe.brdf)
+		result["error"] = name_by_project(result["error"], recipe.brdf)
 	return result

@@ -1,5 +1,5 @@
 @tool
-extends EditorImportPlugin
+extends "native_importer.gd"
 ## Imports environment maps through OpenEXR, for files that the engine's own importer refuses or
 ## misreads: every compression, halves, floats and whole numbers, some of R, G and B, luminance with
 ## or without chroma, other primaries, data and display windows, parts and layers. The result is an
@@ -7,8 +7,6 @@ extends EditorImportPlugin
 ## [member PanoramaSkyMaterial.panorama].
 ## [br][br]
 ## It is chosen in the import dock; the engine's importer stays the one that files get by default.
-
-const NativeLibrary := preload("../bake/native_library.gd")
 
 const NAME := "lobelight.panorama"
 
@@ -25,10 +23,6 @@ func _get_recognized_extensions() -> PackedStringArray:
 	return ["exr", "hdr"]
 
 
-func _get_save_extension() -> String:
-	return "res"
-
-
 func _get_resource_type() -> String:
 	return "ImageTexture"
 
@@ -36,18 +30,6 @@ func _get_resource_type() -> String:
 # Below the engine's own.
 func _get_priority() -> float:
 	return 0.5
-
-
-func _get_import_order() -> int:
-	return 0
-
-
-func _get_preset_count() -> int:
-	return 1
-
-
-func _get_preset_name(_preset: int) -> String:
-	return "Default"
 
 
 func _get_import_options(path: String, _preset: int) -> Array[Dictionary]:
@@ -70,10 +52,6 @@ func _get_import_options(path: String, _preset: int) -> Array[Dictionary]:
 
 func _get_option_visibility(path: String, option: StringName, _options: Dictionary) -> bool:
 	return option != &"layer" or path.is_empty() or not list_layers(path).is_empty()
-
-
-func _can_import_threaded() -> bool:
-	return false
 
 
 func _import(
@@ -139,8 +117,3 @@ static func describe_changes(read: Dictionary) -> String:
 	if read["capped"] > 0:
 		changes.append("%d texels were brighter than 65504 and have that" % read["capped"])
 	return ", ".join(changes)
-
-
-## A message of the library with the file's path in the project instead of that on the machine.
-static func name_by_project(message: String, source: String) -> String:
-	return message.replace(ProjectSettings.globalize_path(source), source)

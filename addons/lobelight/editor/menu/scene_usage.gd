@@ -20,6 +20,11 @@ static func of(root: Node) -> RefCounted:
 	return usage
 
 
+## Whether there is an environment among a node and all below it.
+static func has_environment(node: Node) -> bool:
+	return node is LobeEnvironment3D or node.get_children().any(has_environment)
+
+
 func _look_at(node: Node) -> void:
 	if node is LobeEnvironment3D:
 		environments.append(node)

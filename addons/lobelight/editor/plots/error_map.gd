@@ -61,11 +61,17 @@ func _draw() -> void:
 	draw_text_left_of(
 		Vector2(size.x, area.end.y - get_line_height()), _percent(worst), get_color(1.0)
 	)
+	var centre := _centre()
+	# From the middle outwards, rings are drawn over the larger ones.
 	for t in range(_views.x - 1, -1, -1):
-		for quadrant in 4:
-			for p in _views.y:
-				var color := get_color(_errors[p * _views.x + t] / worst)
-				_draw_cell(t, quadrant, p, color)
+		var radius := _ring(t)
+		for p in _views.y:
+			var sector := _make_sector(p, radius)
+			var color := get_color(_errors[p * _views.x + t] / worst)
+			for mirrored: Vector2 in [
+				Vector2(1, 1), Vector2(-1, 1), Vector2(1, -1), Vector2(-1, -1)
+			]:
+				draw_colored_polygon(Transform2D(0.0, mirrored, 0.0, centre) * sector, color)
 
 
 func _get_tooltip(at: Vector2) -> String:
@@ -117,19 +123,18 @@ func _ring(t: int) -> float:
 	return _radius() * outer / (0.5 * PI)
 
 
-# From the middle outwards, rings are drawn over the larger ones.
-func _draw_cell(t: int, quadrant: int, p: int, color: Color) -> void:
+# Around the middle, in the quadrant of the tangent and the bitangent.
+func _make_sector(p: int, radius: float) -> PackedVector2Array:
 	var first := 0.0
 	var last := 0.5 * PI
 	if _views.y > 1:
 		first = clampf(_azimuth(p) - 0.25 * PI / (_views.y - 1), 0.0, 0.5 * PI)
 		last = clampf(_azimuth(p) + 0.25 * PI / (_views.y - 1), 0.0, 0.5 * PI)
-	var fold := Vector2(1.0 if quadrant % 2 == 0 else -1.0, 1.0 if quadrant < 2 else -1.0)
-	var points: PackedVector2Array = [_centre()]
+	var points: PackedVector2Array = [Vector2.ZERO]
 	for step in _ARC_STEPS + 1:
 		var azimuth := lerpf(first, last, float(step) / _ARC_STEPS)
-		points.append(_centre() + _ring(t) * Vector2(cos(azimuth), -sin(azimuth)) * fold)
-	draw_colored_polygon(points, color)
+		points.append(radius * Vector2(cos(azimuth), -sin(azimuth)))
+	return points
 
 
 # The view (elevation, azimuth) at a place, or (-1, -1).

@@ -24,6 +24,7 @@ var _likelihood := LikelihoodPlot.new()
 var _spheres := SphereComparison.new()
 var _baked := VBoxContainer.new()
 var _is_queued := false
+var _is_view_queued := false
 
 
 static func make(for_table: LobeTable) -> VBoxContainer:
@@ -49,8 +50,8 @@ func _build() -> void:
 		grid.add_child(plot)
 	_baked.add_child(grid)
 	_baked.add_child(_spheres)
-	_elevation.value_changed.connect(_queue_update.unbind(1))
-	_azimuth.value_changed.connect(_queue_update.unbind(1))
+	_elevation.value_changed.connect(_queue_view.unbind(1))
+	_azimuth.value_changed.connect(_queue_view.unbind(1))
 	_errors.view_chosen.connect(show_view)
 
 
@@ -105,16 +106,30 @@ func _update() -> void:
 	var report: Dictionary = {}
 	if table.has_meta(Recipe.REPORT_META):
 		report = table.get_meta(Recipe.REPORT_META)
+	_update_view()
+	_errors.show_errors(table, report.get("errors", PackedFloat32Array()))
+	_likelihood.show_curve(report.get("first_view_curve", PackedFloat32Array()))
+	_spheres.show_table(table, find_brdf(table))
+	_figures.text = _describe(report)
+
+
+# Elevation and azimuth change at once.
+func _queue_view() -> void:
+	if not _is_view_queued:
+		_is_view_queued = true
+		_update_view.call_deferred()
+
+
+# The plots of the chosen view. The others, and the reference, are the same from all views.
+func _update_view() -> void:
+	_is_view_queued = false
+	if not is_inside_tree() or not table.get_problem().is_empty():
+		return
 	var theta := deg_to_rad(_elevation.value)
 	var phi := deg_to_rad(_azimuth.value)
 	var view := Vector3(sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta))
-	var brdf := find_brdf(table)
-	_slice.show_view(table, brdf, view)
+	_slice.show_view(table, find_brdf(table), view)
 	_disc.show_view(table, view)
-	_errors.show_errors(table, report.get("errors", PackedFloat32Array()))
-	_likelihood.show_curve(report.get("first_view_curve", PackedFloat32Array()))
-	_spheres.show_table(table, brdf)
-	_figures.text = _describe(report)
 
 
 ## What the library is to take for the table's BRDF: a model's name or a file; empty if it is not

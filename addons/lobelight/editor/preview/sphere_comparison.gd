@@ -80,6 +80,7 @@ func show_table(table: LobeTable, brdf: String) -> void:
 
 ## Begins the reference picture; it appears when it is done.
 func render_reference() -> void:
+	_status.text = ""
 	_reference = NativeLibrary.create(&"LobeReference")
 	var request := {
 		"env": _path,

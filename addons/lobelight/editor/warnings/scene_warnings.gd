@@ -2,25 +2,11 @@
 extends Object
 ## What keeps a scene from looking as it could, each in a sentence or two that say what to do.
 
+const Pyramid := preload("../../runtime/pyramid.gd")
 const SceneUsage := preload("../menu/scene_usage.gd")
 
 # A panorama of as many texels around shows lamps as boxes on smooth materials.
 const _LEAST_PANORAMA := 512
-const _LINEAR_FORMATS: Array[Image.Format] = [
-	Image.FORMAT_RF,
-	Image.FORMAT_RGF,
-	Image.FORMAT_RGBF,
-	Image.FORMAT_RGBAF,
-	Image.FORMAT_RH,
-	Image.FORMAT_RGH,
-	Image.FORMAT_RGBH,
-	Image.FORMAT_RGBAH,
-	Image.FORMAT_RGBE9995,
-	Image.FORMAT_BPTC_RGBF,
-	Image.FORMAT_BPTC_RGBFU,
-	Image.FORMAT_ASTC_4x4_HDR,
-	Image.FORMAT_ASTC_8x8_HDR,
-]
 
 
 ## All that concerns a scene.
@@ -41,10 +27,8 @@ static func of_scene(root: Node) -> PackedStringArray:
 ## Of a material as it is used in a scene, which may be null.
 static func of_material(material: LobeMaterial3D, root: Node) -> PackedStringArray:
 	var warnings := _of_properties(material)
-	if root != null:
-		var usage: SceneUsage = SceneUsage.of(root)
-		if usage.environments.is_empty():
-			warnings.append(_without_environment())
+	if root != null and not SceneUsage.has_environment(root):
+		warnings.append(_without_environment())
 	return warnings
 
 
@@ -117,8 +101,7 @@ static func _of_panorama(panorama: Texture2D) -> PackedStringArray:
 				)
 			)
 		)
-	var image := panorama.get_image()
-	if image != null and image.get_format() not in _LINEAR_FORMATS:
+	if _format_of(panorama) not in Pyramid.LINEAR_FORMATS:
 		(
 			warnings
 			. append(
@@ -129,6 +112,15 @@ static func _of_panorama(panorama: Texture2D) -> PackedStringArray:
 			)
 		)
 	return warnings
+
+
+# Not that of its image, for which all texels would be read back from the GPU at every look.
+# Without a renderer, only the texture itself knows.
+static func _format_of(panorama: Texture2D) -> Image.Format:
+	var texture := panorama as ImageTexture
+	if texture != null:
+		return texture.get_format()
+	return RenderingServer.texture_get_format(panorama.get_rid())
 
 
 static func _of_properties(material: LobeMaterial3D) -> PackedStringArray:
