@@ -4,8 +4,9 @@ extends GdUnitTestSuite
 const EXPORTED := "user://environment_test.tscn"
 
 
-func _panorama() -> Texture2D:
-	var image := Image.create_empty(16, 8, false, Image.FORMAT_RGBAF)
+func _panorama(width := 16) -> Texture2D:
+	@warning_ignore("integer_division")
+	var image := Image.create_empty(width, width / 2, false, Image.FORMAT_RGBAF)
 	image.fill(Color.WHITE)
 	return ImageTexture.create_from_image(image)
 
@@ -57,8 +58,10 @@ func test_warnings_in_the_editor() -> void:
 	first.source = LobeEnvironment3D.Source.PANORAMA
 	assert_int(first._get_configuration_warnings().size()).is_equal(1)
 	first.panorama = _panorama()
+	assert_str(first._get_configuration_warnings()[0]).contains("only 16 texels")
+	first.panorama = _panorama(512)
 	assert_array(first._get_configuration_warnings()).is_empty()
-	second.panorama = _panorama()
+	second.panorama = _panorama(512)
 	add_child(first)
 	add_child(second)
 	assert_bool(first.is_active()).is_true()

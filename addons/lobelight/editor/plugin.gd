@@ -17,6 +17,7 @@ const TableInspector := preload("bake/table_inspector.gd")
 const TangentWarning := preload("tangent_warning.gd")
 const ToolsMenu := preload("menu/tools_menu.gd")
 const WarningInspector := preload("warnings/warning_inspector.gd")
+const WarningRefresh := preload("warnings/warning_refresh.gd")
 
 var _export_plugin: ExportPlugin
 var _conversions: Array[MaterialConversionPlugin] = []
@@ -52,6 +53,8 @@ func _enter_tree() -> void:
 		add_import_plugin(importer)
 	_warning_inspector = WarningInspector.new()
 	add_inspector_plugin(_warning_inspector)
+	# Freed with the plugin.
+	add_child(WarningRefresh.new())
 	_tools_menu = ToolsMenu.new(_bakes, _scene_menu)
 	add_tool_submenu_item(ToolsMenu.TITLE, _tools_menu)
 

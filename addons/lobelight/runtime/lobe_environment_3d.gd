@@ -79,6 +79,7 @@ enum Filter {
 
 const EnvironmentLight := preload("environment_light.gd")
 const EnvironmentSource := preload("environment_source.gd")
+const EnvironmentWarnings := preload("environment_warnings.gd")
 const LightRegistry := preload("light_registry.gd")
 const Pyramid := preload("pyramid.gd")
 const PyramidChain := preload("pyramid_chain.gd")
@@ -104,6 +105,7 @@ static var _arrivals := 0
 	set(value):
 		update_mode = value
 		_mark_stale()
+		update_configuration_warnings()
 ## The surroundings, in the same projection as [PanoramaSkyMaterial]: +z in the middle, −z at the
 ## left and right edges. Linear light up to 65504; negative values and NaN count as dark. Formats
 ## of 8 bits are taken for sRGB.
@@ -134,11 +136,13 @@ var size := 0:
 	set(value):
 		size = 0 if value <= 0 else clampi(nearest_po2(value), Pyramid.MIN_SIZE, Pyramid.MAX_SIZE)
 		_mark_stale()
+		update_configuration_warnings()
 ## A factor for the light.
 @export_range(0.0, 16.0, 0.01, "or_greater") var energy := 1.0:
 	set(value):
 		energy = value if is_finite(value) and value > 0.0 else 0.0
 		_update_placement()
+		update_configuration_warnings()
 
 @export_group("Capture", "capture_")
 ## Layers of the scene that are captured.
@@ -146,16 +150,19 @@ var size := 0:
 	set(value):
 		capture_cull_mask = value
 		_mark_stale()
+		update_configuration_warnings()
 ## What is nearer than this along the axes is not captured, in metres.
 @export_range(0.001, 10.0, 0.001, "or_greater", "suffix:m") var capture_near := 0.05:
 	set(value):
 		capture_near = maxf(value, 0.001) if is_finite(value) else 0.05
 		_mark_stale()
+		update_configuration_warnings()
 ## What is farther than this along the axes is not captured, in metres.
 @export_range(0.01, 4000.0, 0.01, "or_greater", "suffix:m") var capture_far := 1000.0:
 	set(value):
 		capture_far = maxf(value, 0.01) if is_finite(value) else 1000.0
 		_mark_stale()
+		update_configuration_warnings()
 
 @export_group("Cost")
 ## Whether updates are measured. It costs a few queries of the GPU's clock per update.
@@ -246,13 +253,9 @@ func _validate_property(property: Dictionary) -> void:
 		property.usage &= ~PROPERTY_USAGE_EDITOR
 
 
+# The engine asks in the editor only.
 func _get_configuration_warnings() -> PackedStringArray:
-	var warnings: PackedStringArray = []
-	if source == Source.PANORAMA and panorama == null:
-		warnings.append("Set a panorama; until then LobeMaterial3Ds show a neutral map.")
-	if is_inside_tree() and not is_active() and is_visible_in_tree():
-		warnings.append("Another LobeEnvironment3D lights this world; this one waits for it to go.")
-	return warnings
+	return EnvironmentWarnings.of(self, get_tree().edited_scene_root if is_inside_tree() else null)
 
 
 ## Whether the node is the one that lights its world.
@@ -304,6 +307,7 @@ func _mark_stale() -> void:
 func _on_panorama_changed() -> void:
 	if update_mode != UpdateMode.ONCE:
 		_mark_stale()
+	update_configuration_warnings()
 
 
 # All the frame's changes have been made by now.

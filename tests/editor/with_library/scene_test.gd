@@ -9,6 +9,7 @@ const SceneReport := preload("res://addons/lobelight/editor/menu/scene_report.gd
 const SceneUsage := preload("res://addons/lobelight/editor/menu/scene_usage.gd")
 const SceneWarnings := preload("res://addons/lobelight/editor/warnings/scene_warnings.gd")
 const ToolsMenu := preload("res://addons/lobelight/editor/menu/tools_menu.gd")
+const WarningRefresh := preload("res://addons/lobelight/editor/warnings/warning_refresh.gd")
 const WarningList := preload("res://addons/lobelight/editor/warnings/warning_list.gd")
 
 
@@ -64,6 +65,92 @@ func test_poor_panoramas_are_told_so() -> void:
 	image = Image.create_empty(1024, 512, false, Image.FORMAT_RGBAH)
 	environment.panorama = ImageTexture.create_from_image(image)
 	assert_array(SceneWarnings.of_environment(environment, null)).is_empty()
+
+
+func test_skies_are_looked_at_too() -> void:
+	var root := _make_scene()
+	var environment := LobeEnvironment3D.new()
+	root.add_child(environment)
+	_add_sky(root)
+	var world: WorldEnvironment = root.get_child(2)
+	var material := PanoramaSkyMaterial.new()
+	world.environment.sky.sky_material = material
+	var text := "\n".join(SceneWarnings.of_environment(environment, root))
+	assert_str(text).contains("sky's panorama is not set")
+	var image := Image.create_empty(64, 32, false, Image.FORMAT_RGB8)
+	material.panorama = ImageTexture.create_from_image(image)
+	text = "\n".join(SceneWarnings.of_environment(environment, root))
+	assert_str(text).contains("sky's panorama is only 64").contains("no values above 1")
+	# The node's own panorama counts instead.
+	image = Image.create_empty(1024, 512, false, Image.FORMAT_RGBAH)
+	environment.panorama = ImageTexture.create_from_image(image)
+	assert_array(SceneWarnings.of_environment(environment, root)).is_empty()
+
+
+func test_captures_of_nothing_are_told_so() -> void:
+	var root := _make_scene()
+	var environment := LobeEnvironment3D.new()
+	environment.source = LobeEnvironment3D.Source.CAPTURE
+	root.add_child(environment)
+	assert_array(SceneWarnings.of_environment(environment, root)).is_empty()
+	environment.capture_cull_mask = 2
+	var text := "\n".join(SceneWarnings.of_environment(environment, root))
+	assert_str(text).contains("nothing to capture")
+	_add_sky(root)
+	assert_array(SceneWarnings.of_environment(environment, root)).is_empty()
+	environment.capture_near = 2.0
+	environment.capture_far = 1.0
+	text = "\n".join(SceneWarnings.of_environment(environment, root))
+	assert_str(text).contains("not beyond Near")
+
+
+func test_what_leaves_no_light_is_told() -> void:
+	var environment: LobeEnvironment3D = auto_free(LobeEnvironment3D.new())
+	environment.source = LobeEnvironment3D.Source.PANORAMA
+	assert_str(environment._get_configuration_warnings()[0]).contains("Set a panorama")
+	environment.panorama = ImageTexture.new()
+	assert_str(environment._get_configuration_warnings()[0]).contains("panorama is empty")
+	var image := Image.create_empty(1024, 512, false, Image.FORMAT_RGBAH)
+	environment.panorama = ImageTexture.create_from_image(image)
+	assert_array(environment._get_configuration_warnings()).is_empty()
+	environment.energy = 0.0
+	environment.size = 32
+	assert_str(environment._get_configuration_warnings()[0]).contains("Energy is 0")
+	assert_str(environment._get_configuration_warnings()[1]).contains("only 32 texels")
+
+
+# As the scene tree of the editor has them.
+func test_the_scene_tree_warns_and_follows_the_sky() -> void:
+	var plugin := Kit.get_plugin(get_tree())
+	var refresh: WarningRefresh = Kit.find_all(plugin, WarningRefresh)[0]
+	var packed := PackedScene.new()
+	var empty: Node3D = auto_free(Node3D.new())
+	empty.name = "Scene"
+	packed.pack(empty)
+	ResourceSaver.save(packed, "res://warned.tscn")
+	EditorInterface.open_scene_from_path("res://warned.tscn")
+	await await_idle_frame()
+	var root := EditorInterface.get_edited_scene_root()
+	var environment := LobeEnvironment3D.new()
+	root.add_child(environment)
+	environment.owner = root
+	var told := [0]
+	var tell := func(node: Node) -> void: told[0] += int(node == environment)
+	get_tree().node_configuration_warning_changed.connect(tell)
+	assert_str("\n".join(environment._get_configuration_warnings())).contains("has no sky")
+	assert_int(refresh.refresh()).is_equal(1)
+	assert_int(refresh.refresh()).is_equal(0)
+	_add_sky(root)
+	assert_array(environment._get_configuration_warnings()).is_empty()
+	assert_int(refresh.refresh()).is_equal(1)
+	assert_int(told[0]).is_greater_equal(2)
+	told[0] = 0
+	environment.energy = 0.0
+	assert_int(told[0]).is_equal(1)
+	get_tree().node_configuration_warning_changed.disconnect(tell)
+	EditorInterface.close_scene()
+	await await_idle_frame()
+	DirAccess.remove_absolute("res://warned.tscn")
 
 
 func test_warnings_are_in_the_inspector() -> void:
