@@ -24,6 +24,7 @@ import document  # noqa: E402
 import figures  # noqa: E402
 import measurements  # noqa: E402
 import pages  # noqa: E402
+import runs  # noqa: E402
 import verdicts  # noqa: E402
 
 WHERE = {"machine": "a loom, 2 cores", "driver": "llvmpipe", "driver_version": "1.4", "engine": "4.6", "date": "2026-01-02"}
@@ -204,6 +205,24 @@ class MeasurementsTest(unittest.TestCase):
         again.add({**made, "key": "other"})
         self.assertIsNone(again.entry(conditions, case.methods))
 
+    def test_only_what_draws_makes_figures_stale(self):
+        """Work on the editor and on other commands keeps what was measured; a shader, a table, a method does not."""
+        files = ("addons/lobelight/runtime/shaders/lobe.gdshaderinc", "addons/lobelight/tables/ggx.res", "bake/comparison.gd")
+        files += ("bake/comparators/fis.gd", "gdextension/src/fit/em.cpp", "addons/lobelight/runtime/pyramid.gd")
+        kept = ("addons/lobelight/editor/plugin.gd", "addons/lobelight/editor/export/diet.gd", "addons/lobelight/plugin.cfg")
+        kept += ("bake/bake.gd", "bake/recipes/brushed_ward.json", "addons/lobelight/doc_classes/LobeTable.xml", "demo/demo.gd")
+        for name in (*files, *kept):
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / name).write_text("a", encoding="utf-8")
+        before = batch.source_key(self.folder)
+        for name in kept:
+            (self.folder / name).write_text("b", encoding="utf-8")
+        self.assertEqual(batch.source_key(self.folder), before)
+        for name in files:
+            (self.folder / name).write_text("b", encoding="utf-8")
+            self.assertNotEqual(batch.source_key(self.folder), before, name)
+            (self.folder / name).write_text("a", encoding="utf-8")
+
     def test_a_broken_file_is_refused(self):
         (self.folder / "results.json").write_text('{"cases": [1]}', encoding="utf-8")
         with self.assertRaisesRegex(ValueError, "remove it"):
@@ -236,7 +255,7 @@ class MeasurementsTest(unittest.TestCase):
 
     def test_a_software_driver_is_no_gpu(self):
         for plan in ({"driver": "llvmpipe (LLVM 21)", "driver_type": 0}, {"driver": "Some CPU", "driver_type": 4}):
-            with self.assertRaisesRegex(report.Problem, "found no GPU"):
+            with self.assertRaisesRegex(runs.Problem, "found no GPU"):
                 report.require_gpu(plan)
         report.require_gpu({"driver": "Radeon 780M", "driver_type": 1})
 
@@ -374,7 +393,7 @@ class OptionsTest(unittest.TestCase):
             (["--json", "missing/x.json"], "folder does not exist"),
             (["--colour"], "--colour"),
         ):
-            with self.assertRaisesRegex(report.Problem, text), contextlib.chdir(ROOT):
+            with self.assertRaisesRegex(runs.Problem, text), contextlib.chdir(ROOT):
                 report.read_options(arguments)
 
     def test_only_the_whole_report_goes_to_docs(self):

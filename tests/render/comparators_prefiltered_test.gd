@@ -2,6 +2,7 @@ extends GdUnitTestSuite
 ## The methods of `./dev compare` that have a prefiltered environment: splitsum, majoraxis8, stock.
 
 const Kit := preload("support/render_kit.gd")
+const Bench := preload("support/comparator_bench.gd")
 const ComparatorKit := preload("support/comparator_kit.gd")
 const MajorAxis := preload("res://bake/comparators/major_axis.gd")
 const Stock := preload("res://bake/comparators/stock.gd")
@@ -11,42 +12,26 @@ const METHODS: PackedStringArray = ["splitsum", "majoraxis8"]
 const MATERIALS := [["ward", 0.05, 0.2], ["ward_bounded", 0.15, 0.15], ["ggx", 0.2, 0.05]]
 const ROUND_MATERIALS := [["ward", 0.1], ["ward_bounded", 0.2], ["ggx", 0.1]]
 
-var _lamps := ""
-var _view: LinearViewport
-var _stage: ComparisonStage
+var _bench: Bench
 
 
-func before() -> void:
-	_lamps = create_temp_dir("comparators_prefiltered").path_join("lamps.exr")
-	assert_str(ComparatorKit.save_lamps(_lamps)).is_empty()
+func before_test() -> void:
+	_bench = auto_free(Bench.new(create_temp_dir("comparators")))
+	add_child(_bench)
 
 
 func after() -> void:
 	clean_temp_dir()
 
 
-func before_test() -> void:
-	_view = LinearViewport.new(SIDE)
-	add_child(_view)
-	_stage = ComparisonStage.new(get_tree())
-
-
-func after_test() -> void:
-	_stage = null
-	_view.free()
-
-
 func test_white_furnace(brdf: String, x: float, y: float, _test_parameters := MATERIALS) -> void:
 	# Both multiply by the exact albedo.
-	_stage.panorama = Kit.constant(3.0)
+	_bench.stage.panorama = Kit.constant(3.0)
 	for name in METHODS:
-		var pixels := await _drawn(_make(name, brdf, x, y))
+		var pixels := await _drawn(name, brdf, x, y)
 		for normal in ComparatorKit.NORMALS:
-			var pixel := ComparatorKit.pixel_of(normal)
-			var frame := Kit.sphere_frame(Kit.sphere_normal(pixel.x, pixel.y, SIDE))
-			var view := frame.transposed() * Vector3.BACK
-			var albedo := LobeBaker.directional_albedo(brdf, Vector2(x, y), view)
-			var share := pixels[3 * (pixel.y * SIDE + pixel.x)] / (3.0 * albedo)
+			var albedo := ComparatorKit.albedo_at(brdf, Vector2(x, y), normal)
+			var share := ComparatorKit.value_at(pixels, normal) / (3.0 * albedo)
 			(
 				assert_float(share)
 				. append_failure_message("%s, normal %s: %f of the albedo" % [name, normal, share])
@@ -58,9 +43,9 @@ func test_split_sum_is_exact_along_the_normal(
 	brdf: String, width: float, _test_parameters := ROUND_MATERIALS
 ) -> void:
 	# That is what its map is filtered for. At the edge it is not.
-	_stage.panorama = ComparatorKit.load_panorama(_lamps)
-	var expected := _reference(brdf, width, width)
-	var pixels := await _drawn(_make("splitsum", brdf, width, width))
+	_bench.light_lamps()
+	var expected := _bench.reference(brdf, width, width)
+	var pixels := await _drawn("splitsum", brdf, width, width)
 	var worst_inside := 0.0
 	var worst := 0.0
 	for y in SIDE:
@@ -80,25 +65,23 @@ func test_split_sum_is_exact_along_the_normal(
 func test_bent_normal_of_the_split_sum() -> void:
 	# Filament's formula on its own: grain along the bitangent, bent by the anisotropy.
 	var gradient := Vector3(0.5, 0.3, -0.4)
-	_stage.panorama = Kit.make_panorama(
+	_bench.stage.panorama = Kit.make_panorama(
 		64,
 		func(direction: Vector3) -> Color:
 			var value := 1.0 + gradient.dot(direction)
 			return Color(value, value, value)
 	)
 	for widths: Vector2 in [Vector2(0.2, 0.02), Vector2(0.02, 0.2)]:
-		var pixels := await _drawn(_make("splitsum", "ward", widths.x, widths.y))
+		var pixels := await _drawn("splitsum", "ward", widths.x, widths.y)
 		for normal in ComparatorKit.NORMALS:
-			var pixel := ComparatorKit.pixel_of(normal)
-			var frame := Kit.sphere_frame(Kit.sphere_normal(pixel.x, pixel.y, SIDE))
+			var frame := Kit.sphere_frame(ComparatorKit.exact_normal(normal))
 			var grain := frame.y if widths.x > widths.y else frame.x
 			var grain_normal := grain.cross(Vector3.BACK).cross(grain)
 			# 9/11 of the anisotropy; roughness sqrt(0.11) bends fully.
 			var bent := frame.z.lerp(grain_normal, 9.0 / 11.0).normalized()
 			var direction := 2.0 * bent.z * bent - Vector3.BACK
-			var view := frame.transposed() * Vector3.BACK
-			var albedo := LobeBaker.directional_albedo("ward", widths, view)
-			var got := pixels[3 * (pixel.y * SIDE + pixel.x)] / albedo
+			var albedo := ComparatorKit.albedo_at("ward", widths, normal)
+			var got := ComparatorKit.value_at(pixels, normal) / albedo
 			# The map's blur takes 2 alpha² of the slope of the light.
 			var left := 1.0 - 2.0 * 0.11 * 0.11
 			assert_float(got).is_equal_approx(1.0 + left * gradient.dot(direction), 0.015)
@@ -108,20 +91,19 @@ func test_major_axis_lies_between_the_extrema_of_the_ellipse() -> void:
 	# In a radiance of 1 + g·d, samples without width show their mean direction; here found by
 	# walking around the rim.
 	var gradient := Vector3(0.5, 0.3, -0.4)
-	_stage.panorama = Kit.make_panorama(
+	_bench.stage.panorama = Kit.make_panorama(
 		64,
 		func(direction: Vector3) -> Color:
 			var value := 1.0 + gradient.dot(direction)
 			return Color(value, value, value)
 	)
 	var widths := Vector2(0.3, 0.02)
-	var pixels := await _drawn(_make("majoraxis8", "ward", widths.x, widths.y))
+	var pixels := await _drawn("majoraxis8", "ward", widths.x, widths.y)
 	for normal in ComparatorKit.NORMALS:
-		var pixel := ComparatorKit.pixel_of(normal)
-		var frame := Kit.sphere_frame(Kit.sphere_normal(pixel.x, pixel.y, SIDE))
+		var frame := Kit.sphere_frame(ComparatorKit.exact_normal(normal))
 		var o := frame.transposed() * Vector3.BACK
 		var mean := _mean_along_major_axis(o, widths / sqrt(2.0))
-		var got := pixels[3 * (pixel.y * SIDE + pixel.x)]
+		var got := ComparatorKit.value_at(pixels, normal)
 		got /= LobeBaker.directional_albedo("ward", widths, o)
 		var expected := 1.0 + gradient.dot(frame * mean)
 		assert_float(got).append_failure_message("normal %s" % normal).is_equal_approx(
@@ -132,14 +114,14 @@ func test_major_axis_lies_between_the_extrema_of_the_ellipse() -> void:
 func test_major_axis_follows_a_long_highlight() -> void:
 	# Closer to the reference than the bent normal that it is to replace. More samples do not converge
 	# to the reference, because all of them weigh the same; they are narrower, and else much the same.
-	_stage.panorama = ComparatorKit.load_panorama(_lamps)
+	_bench.light_lamps()
 	for widths: Vector2 in [Vector2(0.15, 0.02)]:
-		var expected := _reference("ggx", widths.x, widths.y)
-		var bent := await _drawn(_make("splitsum", "ggx", widths.x, widths.y))
-		var method: MajorAxis = _make("majoraxis8", "ggx", widths.x, widths.y)
-		var few := await _drawn(method)
+		var expected := _bench.reference("ggx", widths.x, widths.y)
+		var bent := await _drawn("splitsum", "ggx", widths.x, widths.y)
+		var method: MajorAxis = _bench.make("majoraxis8", "ggx", widths.x, widths.y)
+		var few := await _bench.drawn(method)
 		method.samples = 64
-		var many := await _drawn_again(method)
+		var many := await _bench.captured(method)
 		var error := ComparatorKit.error(few, expected)
 		assert_float(error).is_less(0.3 * ComparatorKit.error(bent, expected))
 		assert_float(ComparatorKit.error(many, expected)).is_less(0.25)
@@ -148,13 +130,12 @@ func test_major_axis_follows_a_long_highlight() -> void:
 
 func test_stock_reflects_a_constant_sky() -> void:
 	# Compatibility takes it for sRGB; the engine's albedo is below 1.
-	_stage.panorama = Kit.constant(0.5)
+	_bench.stage.panorama = Kit.constant(0.5)
 	var light := _as_the_engine_shows_it(0.5)
 	for widths: Vector2 in [Vector2(0.1, 0.1), Vector2(0.1, 0.2)]:
-		var pixels := await _drawn(_make("stock", "ggx", widths.x, widths.y))
+		var pixels := await _drawn("stock", "ggx", widths.x, widths.y)
 		for normal: Vector3 in ComparatorKit.NORMALS.slice(0, 3):
-			var pixel := ComparatorKit.pixel_of(normal)
-			var got := pixels[3 * (pixel.y * SIDE + pixel.x)]
+			var got := ComparatorKit.value_at(pixels, normal)
 			assert_float(got).append_failure_message(str(normal)).is_between(
 				0.75 * light, 1.02 * light
 			)
@@ -162,14 +143,14 @@ func test_stock_reflects_a_constant_sky() -> void:
 
 func test_stock_shows_the_panorama_where_the_others_do() -> void:
 	# A lamp that is smooth enough for all of them, in the range that Mobile's sky has.
-	_stage.panorama = Kit.make_panorama(
+	_bench.stage.panorama = Kit.make_panorama(
 		64,
 		func(direction: Vector3) -> Color:
 			var value := 0.1 + 0.8 * exp(3.0 * (direction.dot(Vector3(-0.48, 0.64, 0.6)) - 1.0))
 			return Color(value, value, value)
 	)
-	var expected := await _drawn(_make("splitsum", "ggx", 0.05, 0.05))
-	var got := await _drawn(_make("stock", "ggx", 0.05, 0.05))
+	var expected := await _drawn("splitsum", "ggx", 0.05, 0.05)
+	var got := await _drawn("stock", "ggx", 0.05, 0.05)
 	var sums := Vector2.ZERO
 	for i in expected.size():
 		expected[i] = _as_the_engine_shows_it(expected[i])
@@ -220,33 +201,9 @@ func _mirrored(o: Vector3, slope: Vector2) -> Vector3:
 	return 2.0 * o.dot(h) * h - o
 
 
-func _make(name: String, brdf: String, x: float, y: float) -> ComparisonMethod:
-	return CompareMethods.make(name, brdf, PackedFloat64Array([x, y]))
-
-
-func _drawn(method: ComparisonMethod) -> PackedFloat32Array:
+# The engine filters the smallest of its maps in a fraction of the time.
+func _drawn(title: String, brdf: String, x: float, y: float) -> PackedFloat32Array:
+	var method := _bench.make(title, brdf, x, y)
 	if method is Stock:
 		(method as Stock).radiance_size = Sky.RADIANCE_SIZE_64
-	assert_str(await method.prepare(_stage)).is_empty()
-	return await _drawn_again(method)
-
-
-func _drawn_again(method: ComparisonMethod) -> PackedFloat32Array:
-	# Stock changes it.
-	_view.free()
-	_view = LinearViewport.new(SIDE)
-	add_child(_view)
-	_view.add_child(method.make_sphere())
-	method.set_up_viewport(_view)
-	# Skies take some frames.
-	await _view.measure_gpu_time(2)
-	var image: Image = await _view.capture()
-	image.convert(Image.FORMAT_RGBF)
-	return image.get_data().to_float32_array()
-
-
-func _reference(brdf: String, x: float, y: float) -> PackedFloat32Array:
-	var options := {"env": _lamps, "brdf": brdf, "alpha": [x, y], "size": SIDE, "samples": 1024}
-	var result: Dictionary = NativeLibrary.create(&"LobeReference").call("render_sphere", options)
-	assert_str(result.get("error", "")).is_empty()
-	return result["pixels"]
+	return await _bench.drawn(method)

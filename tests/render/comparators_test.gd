@@ -2,6 +2,7 @@ extends GdUnitTestSuite
 ## The methods that `./dev compare` sets beside this project's own do what their papers say.
 
 const Kit := preload("support/render_kit.gd")
+const Bench := preload("support/comparator_bench.gd")
 const ComparatorKit := preload("support/comparator_kit.gd")
 const Oracle := preload("support/brdf_oracle.gd")
 const Fis := preload("res://bake/comparators/fis.gd")
@@ -29,29 +30,16 @@ const MANY := 1024
 const MANY_OF_GGX := 4096
 const PART := 64
 
-var _lamps := ""
-var _view: LinearViewport
-var _stage: ComparisonStage
+var _bench: Bench
 
 
-func before() -> void:
-	_lamps = create_temp_dir("comparators").path_join("lamps.exr")
-	assert_str(ComparatorKit.save_lamps(_lamps)).is_empty()
+func before_test() -> void:
+	_bench = auto_free(Bench.new(create_temp_dir("comparators")))
+	add_child(_bench)
 
 
 func after() -> void:
 	clean_temp_dir()
-
-
-func before_test() -> void:
-	_view = LinearViewport.new(SIDE)
-	add_child(_view)
-	_stage = ComparisonStage.new(get_tree())
-
-
-func after_test() -> void:
-	_stage = null
-	_view.free()
 
 
 func test_known_and_unknown_names() -> void:
@@ -92,13 +80,10 @@ func test_fis_weights_and_levels(
 ) -> void:
 	# In a cube map whose levels hold 1 + their number, a sample shows its level.
 	var method := _fis(brdf, x, y, 8)
-	_stage._lights["box"] = ComparatorKit.level_light(32, "box")
-	assert_str(await method.prepare(_stage)).is_empty()
-	_view.add_child(method.make_sphere())
-	var image: Image = await _view.capture()
+	_bench.stage._lights["box"] = ComparatorKit.level_light(32, "box")
+	var pixels := await _bench.drawn(method)
 	for normal in NORMALS:
-		var pixel := ComparatorKit.pixel_of(normal)
-		var exact := Kit.sphere_normal(pixel.x, pixel.y, SIDE)
+		var exact := ComparatorKit.exact_normal(normal)
 		var frame := ComparatorKit.frame(exact, x == y)
 		var o := frame.transposed() * Vector3.BACK
 		var expected := 0.0
@@ -113,7 +98,7 @@ func test_fis_weights_and_levels(
 			expected += Oracle.weight(brdf, Vector2(x, y), h, o) * (1.0 + level) / 8.0
 			lowest = minf(lowest, level)
 		assert_float(lowest).is_less(4.0)
-		_assert_close(image.get_pixelv(pixel).g, expected, 0.01, "normal %s" % exact)
+		_assert_close(ComparatorKit.value_at(pixels, normal), expected, 0.01, "normal %s" % exact)
 
 
 func test_fis_on_a_wider_pyramid_blurs_as_on_means_of_two_by_two() -> void:
@@ -127,15 +112,10 @@ func test_fis_on_a_wider_pyramid_blurs_as_on_means_of_two_by_two() -> void:
 func test_fis_converges_to_the_reference(
 	brdf: String, x: float, y: float, _test_parameters := SKEWED_MATERIALS
 ) -> void:
-	var options := {"env": _lamps, "brdf": brdf, "alpha": [x, y], "size": SIDE, "samples": 1024}
-	var reference: Dictionary = NativeLibrary.create(&"LobeReference").call(
-		"render_sphere", options
-	)
-	assert_str(reference.get("error", "")).is_empty()
-	var expected: PackedFloat32Array = reference["pixels"]
-	_stage.panorama = ComparatorKit.load_panorama(_lamps)
-	var few := ComparatorKit.error(await _drawn(_fis(brdf, x, y, 8)), expected)
-	var more := ComparatorKit.error(await _drawn(_fis(brdf, x, y, 40)), expected)
+	var expected := _bench.reference(brdf, x, y)
+	_bench.light_lamps()
+	var few := ComparatorKit.error(await _bench.drawn(_fis(brdf, x, y, 8)), expected)
+	var more := ComparatorKit.error(await _bench.drawn(_fis(brdf, x, y, 40)), expected)
 	var count := MANY_OF_GGX if brdf == "ggx" else MANY
 	var most := ComparatorKit.error(await _drawn_in_parts(_fis(brdf, x, y, count)), expected)
 	var figures := "%f, %f, %f" % [few, more, most]
@@ -146,30 +126,26 @@ func test_fis_converges_to_the_reference(
 func test_white_furnace_of_fis(
 	brdf: String, x: float, y: float, _test_parameters := MATERIALS
 ) -> void:
-	_stage.panorama = Kit.constant(3.0)
+	_bench.stage.panorama = Kit.constant(3.0)
 	for own_pyramid: bool in [false, true]:
 		var method := _fis(brdf, x, y, 40)
 		method.on_own_pyramid = own_pyramid
-		var pixels := await _drawn(method)
+		var pixels := await _bench.drawn(method)
 		for normal in NORMALS:
-			var pixel := ComparatorKit.pixel_of(normal)
-			var frame := Kit.sphere_frame(Kit.sphere_normal(pixel.x, pixel.y, SIDE))
-			var view := frame.transposed() * Vector3.BACK
-			var albedo := LobeBaker.directional_albedo(brdf, Vector2(x, y), view)
-			var got := pixels[3 * (pixel.y * SIDE + pixel.x)]
+			var albedo := ComparatorKit.albedo_at(brdf, Vector2(x, y), normal)
+			var got := ComparatorKit.value_at(pixels, normal)
 			_assert_close(got, 3.0 * albedo, FURNACE_BIAS, "normal %s" % normal)
 
 
 func test_white_furnace_of_toral() -> void:
-	_stage.panorama = Kit.constant(3.0)
+	_bench.stage.panorama = Kit.constant(3.0)
 	var method := _toral(Kit.make_odd_table(8, Vector2i(9, 1), Vector2(0.2, 0.2)))
 	var pixels := await _drawn_with_table(method)
 	for normal in NORMALS:
-		var pixel := ComparatorKit.pixel_of(normal)
-		var exact := Kit.sphere_normal(pixel.x, pixel.y, SIDE)
+		var exact := ComparatorKit.exact_normal(normal)
 		var nearest := roundi(method.table.get_column(acos(exact.z)))
 		var albedo := method.table.directional_albedo(method.table.get_view(nearest, 0))
-		_assert_close(pixels[3 * (pixel.y * SIDE + pixel.x)], 3.0 * albedo, 0.005, str(exact))
+		_assert_close(ComparatorKit.value_at(pixels, normal), 3.0 * albedo, 0.005, str(exact))
 
 
 func test_toral_texture_holds_the_lobes() -> void:
@@ -193,15 +169,14 @@ func test_toral_texture_holds_the_lobes() -> void:
 
 func test_toral_takes_the_lobes_of_the_nearest_view() -> void:
 	# In a radiance 1 + g·d a lobe gives weight (1 + A g·mean), A = coth kappa - 1/kappa.
-	_stage.panorama = Kit.make_panorama(64, _linear)
+	_bench.stage.panorama = Kit.make_panorama(64, _linear)
 	for table: LobeTable in [
 		Kit.make_odd_table(8, Vector2i(9, 1), Vector2(0.2, 0.2), 9.0),
 		Kit.make_odd_table(16, Vector2i(7, 4), Vector2(0.1, 0.4), 9.0),
 	]:
 		var pixels := await _drawn_with_table(_toral(table))
 		for normal: Vector3 in NORMALS + [Vector3(-0.7, -0.8, 1.0)] as Array[Vector3]:
-			var pixel := ComparatorKit.pixel_of(normal)
-			var exact := Kit.sphere_normal(pixel.x, pixel.y, SIDE)
+			var exact := ComparatorKit.exact_normal(normal)
 			var frame := ComparatorKit.frame(exact, table.is_isotropic())
 			var o := frame.transposed() * Vector3.BACK
 			var fold := Vector3(signf(o.x), signf(o.y), 1.0)
@@ -212,7 +187,7 @@ func test_toral_takes_the_lobes_of_the_nearest_view() -> void:
 				var mean: Vector3 = frame * (fold * (lobe["mean"] as Vector3))
 				var left := Kit.mean_cosine(lobe["kappa"])
 				expected += (lobe["weight"] as float) * (1.0 + left * GRADIENT.dot(mean))
-			var got := pixels[3 * (pixel.y * SIDE + pixel.x)]
+			var got := ComparatorKit.value_at(pixels, normal)
 			_assert_close(got, expected, 0.015, "normal %s" % exact)
 
 
@@ -223,13 +198,12 @@ func test_toral_levels() -> void:
 	map.side = 64
 	map.texture = Texture2DArray.new()
 	map.texture.create_from_images([ComparatorKit.level_image(64), ComparatorKit.level_image(64)])
-	_stage._map = map
+	_bench.stage._map = map
 	for coverage: float in [0.47, 0.9]:
-		_stage.toral_coverage = coverage
+		_bench.stage.toral_coverage = coverage
 		var pixels := await _drawn_with_table(_toral(table))
 		for normal in NORMALS:
-			var pixel := ComparatorKit.pixel_of(normal)
-			var frame := ComparatorKit.frame(Kit.sphere_normal(pixel.x, pixel.y, SIDE), true)
+			var frame := ComparatorKit.frame(ComparatorKit.exact_normal(normal), true)
 			var o := frame.transposed() * Vector3.BACK
 			var expected := 0.0
 			for lobe in table.lobes_at(_nearest_view(table, o)):
@@ -238,13 +212,13 @@ func test_toral_levels() -> void:
 				var density := 4.0 * 1.2 * 1.2 * pow(absf(direction.z) + 1.0, 2.0)
 				var level := 0.5 * log(lobe_angle / (density / (64.0 * 64.0))) / log(2.0)
 				expected += (lobe["weight"] as float) * (1.0 + clampf(level, 0.0, 6.0))
-			var got := pixels[3 * (pixel.y * SIDE + pixel.x)]
+			var got := ComparatorKit.value_at(pixels, normal)
 			_assert_close(got, expected, 0.01, "normal %s, coverage %f" % [normal, coverage])
 
 
 func test_dual_paraboloid_map_has_levels_of_two_by_two_means() -> void:
-	_stage.panorama = Kit.make_panorama(16, _linear)
-	var map := await _stage.dual_paraboloid_map()
+	_bench.stage.panorama = Kit.make_panorama(16, _linear)
+	var map := await _bench.stage.dual_paraboloid_map()
 	assert_int(map.side).is_equal(64)
 	for half in 2:
 		var image: Image = map.texture.get_layer_data(half)
@@ -282,38 +256,22 @@ func _toral(table: LobeTable) -> Toral:
 	return method
 
 
-# The method's picture, three floats a pixel.
-func _drawn(method: ComparisonMethod) -> PackedFloat32Array:
-	assert_str(await method.prepare(_stage)).is_empty()
-	return await _captured(method.make_sphere())
-
-
 func _drawn_with_table(method: Toral) -> PackedFloat32Array:
-	assert_str(await method.use(method.table, _stage)).is_empty()
-	return await _captured(method.make_sphere())
-
-
-func _captured(sphere: MeshInstance3D) -> PackedFloat32Array:
-	_view.add_child(sphere)
-	var image: Image = await _view.capture()
-	sphere.free()
-	image.convert(Image.FORMAT_RGBF)
-	return image.get_data().to_float32_array()
+	assert_str(await method.use(method.table, _bench.stage)).is_empty()
+	return await _bench.captured(method)
 
 
 # The mean of the pictures of all parts of the samples.
 func _drawn_in_parts(method: Fis) -> PackedFloat32Array:
-	assert_str(await method.prepare(_stage)).is_empty()
+	assert_str(await method.prepare(_bench.stage)).is_empty()
 	var sphere := method.make_part(0, PART)
 	var material := (sphere.mesh as QuadMesh).material as ShaderMaterial
-	_view.add_child(sphere)
+	_bench.view.add_child(sphere)
 	var sums := PackedFloat32Array()
 	sums.resize(3 * SIDE * SIDE)
 	for first in range(0, method.samples, PART):
 		material.set_shader_parameter(&"fis_samples", method.constants(first, PART))
-		var image: Image = await _view.capture()
-		image.convert(Image.FORMAT_RGBF)
-		var pixels := image.get_data().to_float32_array()
+		var pixels := await _bench.pixels()
 		for i in sums.size():
 			sums[i] += pixels[i] * PART / method.samples
 	sphere.free()

@@ -6,9 +6,10 @@ A part is a question; the same material on the same map in two parts is one case
 import dataclasses
 import itertools
 
+from runs import SYNTHETIC
+
 REFERENCE = "reference"
 RIVAL = "fis40"
-SYNTHETIC = "synthetic"
 MAPS = ("hall", "sunset", "forest", SYNTHETIC)
 # Those of Töral 2015, and one more.
 ISOTROPIC_WIDTHS = (0.01, 0.02, 0.05, 0.1, 0.15, 0.2)

@@ -6,6 +6,8 @@ set of settings (the properties of bake/comparators/comparison_stage.gd that dif
 
 import dataclasses
 
+from runs import SYNTHETIC
+
 REFERENCE = "reference"
 BASELINE = "gmm8"
 OURS = "gmm"
@@ -45,8 +47,6 @@ RENDERERS = ("mobile", "gl_compatibility", "forward_plus")
 # GPU times are taken here: they hardly depend on the map.
 TIMED_MAP = "hall"
 OTHER_MAPS = ("sunset", "forest")
-# Made up, with the contrast of the thesis' map.
-SYNTHETIC = "synthetic"
 
 # The thesis does not give its coverage. The usual one, 0.47, makes the texels' variance the lobe's.
 COVERAGES = (0.77, 0.9)

@@ -10,29 +10,21 @@ import contextlib
 import datetime
 import pathlib
 import sys
-import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(1, str(ROOT / "tools/compare"))
-# At the end: that folder has modules with the names of this one's.
-sys.path.append(str(ROOT / "tools/accuracy"))
 
 import batch  # noqa: E402
-import bright_map  # noqa: E402
 import cases  # noqa: E402
 import measurements  # noqa: E402
 import metrics  # noqa: E402
 import pages  # noqa: E402
+import runs  # noqa: E402
 import sheets  # noqa: E402
 
 WORK = ROOT / "build/report"
 REPORT = ROOT / "docs/report"
-MAPS = {
-    "hall": ROOT / "demo/environments/hall.exr",
-    "sunset": ROOT / "demo/environments/sunset.exr",
-    "forest": ROOT / "tests/data/forest.exr",
-    cases.SYNTHETIC: WORK / f"synthetic-{bright_map.version()}.exr",
-}
+MAPS = runs.own_maps(WORK)
 SIZE, QUICK_SIZE, GPU_SIZE = 128, 64, 512
 SAMPLES, GPU_SAMPLES = 640, 256
 TIMING_ROUNDS, QUICK_TIMING_ROUNDS = 7, 5
@@ -42,24 +34,6 @@ MOST_CASES_LEFT_OUT = 5
 # What RenderingServer.get_video_adapter_type() calls a processor.
 DEVICE_TYPE_CPU = 4
 SOFTWARE_DRIVERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "software")
-
-
-class Problem(Exception):
-    """One sentence for the user."""
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise Problem(f"{message}; ./dev report --help lists the options")
-
-
-def whole_number(low, high):
-    def convert(text):
-        if not text.isdecimal() or not low <= int(text) <= high:
-            raise argparse.ArgumentTypeError(f"must be a whole number from {low} to {high}, not {text}")
-        return int(text)
-
-    return convert
 
 
 def renderer_list(text):
@@ -72,28 +46,14 @@ def renderer_list(text):
 
 
 def read_options(arguments):
-    parser = Parser(prog="./dev report", add_help=False, allow_abbrev=False)
-    parser.add_argument("--quick", action="store_true")
+    parser = runs.Parser("report")
+    parser.add_common()
     parser.add_argument("--device", action="store_true")
     parser.add_argument("--renderers", type=renderer_list)
-    parser.add_argument("--maps", type=lambda text: [pathlib.Path(name) for name in text.split(",") if name], default=[])
-    parser.add_argument("--size", type=whole_number(8, 2048))
-    parser.add_argument("--samples", type=whole_number(2, 1 << 20))
-    parser.add_argument("--timing-rounds", type=whole_number(1, 10000))
-    parser.add_argument("--json", type=pathlib.Path)
-    parser.add_argument("--out", type=pathlib.Path)
-    # Only looks at the options.
-    parser.add_argument("--check", action="store_true")
     options = parser.parse_args(arguments)
-    for path in options.maps:
-        if not path.is_file():
-            raise Problem(f"{path}: there is no such map")
-        if path.stem in MAPS or sum(other.stem == path.stem for other in options.maps) > 1:
-            raise Problem(f"{path}: another map has the name {path.stem}")
-    if options.json and not options.json.absolute().parent.is_dir():
-        raise Problem(f"{options.json}: its folder does not exist")
+    runs.check_files(options, MAPS)
     if options.out and options.out.exists() and not options.out.is_dir():
-        raise Problem(f"{options.out}: is not a folder")
+        raise runs.Problem(f"{options.out}: is not a folder")
     given = any((options.maps, options.renderers, options.size, options.samples, options.timing_rounds))
     if options.out is None:
         # The repository's report is of the repository's maps, whole; a GPU adds to it.
@@ -105,25 +65,6 @@ def read_options(arguments):
     options.samples = options.samples or (GPU_SAMPLES if options.device else SAMPLES)
     options.timing_rounds = options.timing_rounds or (QUICK_TIMING_ROUNDS if options.quick else TIMING_ROUNDS)
     return options
-
-
-def left(seconds):
-    return f"{seconds / 60:.0f} min left" if seconds >= 90 else f"{seconds:.0f} s left"
-
-
-class Progress:
-    """Says how far the run is; cases count by what they usually take."""
-
-    def __init__(self, missing):
-        self.count, self.done = len(missing), 0
-        self.weight, self.done_weight = sum(case.weight() for case in missing), 0.0
-        self.started = time.monotonic()
-
-    def step(self, case, said):
-        self.done += 1
-        self.done_weight += case.weight()
-        seconds = (time.monotonic() - self.started) * (self.weight / self.done_weight - 1.0)
-        print(f"[{self.done}/{self.count}] {case.title()}: {said}; {left(seconds)}", file=sys.stderr, flush=True)
 
 
 def folder_of(case):
@@ -148,7 +89,7 @@ def list_entry(case, options, paths):
 def require_gpu(plan):
     name = plan["driver"]
     if plan["driver_type"] == DEVICE_TYPE_CPU or any(word in name.lower() for word in SOFTWARE_DRIVERS):
-        raise Problem(f"--device found no GPU: the display's driver is {name}, which draws in software")
+        raise runs.Problem(f"--device found no GPU: the display's driver is {name}, which draws in software")
 
 
 def judge(case, options, keys, kept):
@@ -181,7 +122,7 @@ def measure(missing, options, paths, keys, kept):
 
     A case at which the engine stops is tried again, then left out.
     """
-    progress, left_out, tries = Progress(missing), {}, {}
+    progress, left_out, tries = runs.Progress([case.weight() for case in missing]), {}, {}
     for renderer in dict.fromkeys(case.renderer for case in missing):
         waiting = [case for case in missing if case.renderer == renderer]
         while waiting:
@@ -197,16 +138,16 @@ def measure(missing, options, paths, keys, kept):
                         left_out[case.title()] = str(problem)
                         said = f"left out, {problem}"
                     done += 1
-                    progress.step(case, said)
+                    progress.step(case.weight(), case.title(), said)
             waiting = waiting[done:]
             if waiting:
                 title, reason = waiting[0].title(), batch.failure(WORK)
                 tries[title] = tries.get(title, 0) + 1
                 if tries[title] == MOST_TRIES:
                     left_out[title] = reason
-                    progress.step(waiting.pop(0), f"left out, {reason}")
+                    progress.step(waiting.pop(0).weight(), title, f"left out, {reason}")
             if len(left_out) > MOST_CASES_LEFT_OUT:
-                raise Problem(f"too many cases cannot be drawn, the last reason: {list(left_out.values())[-1]}")
+                raise runs.Problem(f"too many cases cannot be drawn, the last reason: {list(left_out.values())[-1]}")
     return left_out
 
 
@@ -218,17 +159,12 @@ def ordered(plan):
 
 
 def run(options):
-    WORK.mkdir(parents=True, exist_ok=True)
-    if not MAPS[cases.SYNTHETIC].exists():
-        bright_map.write(MAPS[cases.SYNTHETIC])
-    paths = {**MAPS, **{path.stem: path.absolute() for path in options.maps}}
+    paths, keys = runs.prepare_maps(options, MAPS, WORK)
     given_maps = tuple(path.stem for path in options.maps)
     if options.device:
         plan = cases.on_gpu(options.renderers)
     else:
         plan = (cases.quick if options.quick else cases.full)(options.renderers, given_maps)
-    sources = batch.source_key()
-    keys = {name: batch.case_key(sources, path) for name, path in paths.items()}
     folder = options.out / "compare"
     folder.mkdir(parents=True, exist_ok=True)
     kept = measurements.Measurements(folder)
@@ -245,7 +181,7 @@ def run(options):
     device = cases.GPU if options.device else cases.SOFTWARE
     entries += [e for e in kept.of_other_devices(device) if e["key"] == keys.get(e["map"])]
     if not entries:
-        raise Problem(f"nothing could be drawn: {next(iter(left_out.values()))}")
+        raise runs.Problem(f"nothing could be drawn: {next(iter(left_out.values()))}")
     kept.save(entries)
     measurements.write_csv(folder / "results.csv", entries)
     summary = pages.write(options.out, entries, REPORT, left_out)
@@ -254,19 +190,8 @@ def run(options):
     print(f"report: {len(entries)} cases; {options.out / 'README.md'}, {options.out / 'index.html'}")
     if left_out:
         title, reason = next(iter(left_out.items()))
-        raise Problem(f"{len(left_out)} cases could not be measured, the first of them {title}: {reason}")
-
-
-def main():
-    try:
-        options = read_options(sys.argv[1:])
-        if not options.check:
-            run(options)
-    except (Problem, ValueError, OSError, metrics.MetricError) as problem:
-        sys.exit(f"report: {str(problem).rstrip('.')}.")
-    except KeyboardInterrupt:
-        sys.exit("report: stopped; the same command goes on from here.")
+        raise runs.Problem(f"{len(left_out)} cases could not be measured, the first of them {title}: {reason}")
 
 
 if __name__ == "__main__":
-    main()
+    runs.main("report", read_options, run)

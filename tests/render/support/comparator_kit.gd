@@ -88,3 +88,21 @@ static func frame(normal: Vector3, isotropic: bool) -> Basis:
 static func pixel_of(normal: Vector3) -> Vector2i:
 	var p := normal.normalized()
 	return Vector2i(floori((p.x + 1.0) * 0.5 * SIDE), floori((1.0 - p.y) * 0.5 * SIDE))
+
+
+## What a picture of three floats a pixel has in its first channel where it shows a normal.
+static func value_at(pixels: PackedFloat32Array, normal: Vector3) -> float:
+	var pixel := pixel_of(normal)
+	return pixels[3 * (pixel.y * SIDE + pixel.x)]
+
+
+## The exact normal of the pixel where a picture shows about [param normal].
+static func exact_normal(normal: Vector3) -> Vector3:
+	var pixel := pixel_of(normal)
+	return Kit.sphere_normal(pixel.x, pixel.y, SIDE)
+
+
+## The directional albedo there, for the viewer of the picture.
+static func albedo_at(brdf: String, widths: Vector2, normal: Vector3) -> float:
+	var view := Kit.sphere_frame(exact_normal(normal)).transposed() * Vector3.BACK
+	return LobeBaker.directional_albedo(brdf, widths, view)
