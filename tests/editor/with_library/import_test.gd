@@ -2,9 +2,12 @@
 extends GdUnitTestSuite
 ## The importers in the running editor, with good files and bad ones.
 
+const Job := preload("res://addons/lobelight/editor/bake/bake_job.gd")
 const Kit := preload("res://tests/editor/editor_kit.gd")
 const MeasuredImporter := preload("res://addons/lobelight/editor/import/measured_importer.gd")
 const PanoramaImporter := preload("res://addons/lobelight/editor/import/panorama_importer.gd")
+const Progress := preload("res://addons/lobelight/editor/import/import_progress.gd")
+const ProgressPanel := preload("res://addons/lobelight/editor/import/progress_panel.gd")
 const Recipe := preload("res://addons/lobelight/editor/bake/bake_recipe.gd")
 
 const FILES := "res://data"
@@ -135,14 +138,84 @@ func test_measurements_are_imported_as_tables() -> void:
 	assert_int(report["clamped"]).is_equal(1)
 
 
+# Without a window the output says how far it is.
+class OneStep:
+	extends Progress
+	var fractions: PackedFloat64Array = []
+
+	func step(fraction: float, seconds_left: float) -> void:
+		super(fraction, seconds_left)
+		fractions.append(fraction)
+		is_cancelled = true
+
+
+func test_a_cancelled_import_keeps_the_table_from_before() -> void:
+	var path := _reimport("white.bsdf", MeasuredImporter.NAME, {"lobes": 4})
+	var recipe := Recipe.new()
+	recipe.brdf = path
+	recipe.lobes = 32
+	var job := Job.new(null, recipe)
+	var progress := OneStep.new("white")
+	assert_dict(MeasuredImporter.bake(job, progress)).is_empty()
+	assert_str(job.error).is_empty()
+	assert_int(progress.fractions.size()).is_greater(0)
+	var kept := "user://kept.res"
+	assert_int(MeasuredImporter._end_without_result(path, kept, "")).is_equal(ERR_SKIP)
+	ResourceSaver.save(load(path), kept)
+	assert_int(MeasuredImporter._end_without_result(path, kept, "")).is_equal(OK)
+	assert_int((load(kept) as LobeTable).lobe_count).is_equal(4)
+	DirAccess.remove_absolute(kept)
+
+
+func test_the_panel_takes_clicks_on_its_button_only() -> void:
+	var panel: ProgressPanel = auto_free(ProgressPanel.new())
+	EditorInterface.get_base_control().add_child(panel)
+	panel.size = panel.find_size()
+	panel.draw_now(0.5, "half")
+	var place := panel._find_button()
+	assert_bool(Rect2(Vector2.ZERO, panel.size).encloses(place)).is_true()
+	var click := func(at: Vector2) -> bool:
+		var event := InputEventMouseButton.new()
+		event.button_index = MOUSE_BUTTON_LEFT
+		event.position = at
+		event.pressed = true
+		var is_cancelled := panel.is_cancelled_by(event)
+		event.pressed = false
+		return panel.is_cancelled_by(event) and not is_cancelled
+	assert_bool(click.call(place.get_center())).is_true()
+	assert_bool(click.call(Vector2.ONE)).is_false()
+
+
+func test_automatic_lobes_look_at_the_chosen_panorama() -> void:
+	var importer := MeasuredImporter.new()
+	var shown := func(lobes: int) -> bool:
+		return importer._get_option_visibility("", &"environment", {"lobes": lobes})
+	assert_bool(shown.call(Recipe.AUTOMATIC)).is_true()
+	assert_bool(shown.call(8)).is_false()
+	var recipe := Recipe.new()
+	recipe.lobes = Recipe.AUTOMATIC
+	recipe.target = 12.0
+	recipe.environment = FILES.path_join("layers.exr")
+	assert_array(recipe.to_request()["environments"]).is_equal([recipe.environment])
+	recipe.environment = "res://missing.exr"
+	assert_str(recipe.get_problem()).contains("missing.exr: there is no such file")
+	recipe.environment = FILES.path_join("text.exr")
+	var job := Job.new(null, recipe)
+	assert_dict(MeasuredImporter.bake(job, Progress.new("sphere"))).is_empty()
+	assert_str(job.error).contains("text.exr: is neither an OpenEXR nor a Radiance")
+
+
 func test_what_is_no_measurement_is_refused_in_a_sentence() -> void:
 	var importer := MeasuredImporter.new()
 	var results: Array[Error] = []
 	var recipe := Recipe.new()
 	recipe.brdf = FILES.path_join("text.binary")
-	var sentence: String = MeasuredImporter.bake(recipe)["error"]
+	recipe.lobes = 4
+	var job := Job.new(null, recipe)
+	assert_dict(MeasuredImporter.bake(job, Progress.new("text"))).is_empty()
+	var sentence := job.error
 	assert_str(sentence).starts_with("res://data/text.binary: ")
-	var options := {"lobes": 4, "target": 30.0}
+	var options := {"lobes": 4, "target": 30.0, "environment": ""}
 	var import := func() -> void:
 		results.append(importer._import(recipe.brdf, "user://bad", options, [], []))
 	await assert_error(import).is_push_error(sentence)

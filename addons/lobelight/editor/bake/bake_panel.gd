@@ -4,6 +4,7 @@ extends VBoxContainer
 ## table's inspector.
 
 const BakeQueue := preload("bake_queue.gd")
+const FileField := preload("file_field.gd")
 const FormRow := preload("form_row.gd")
 const NativeLibrary := preload("native_library.gd")
 const Presets := preload("bake_presets.gd")
@@ -24,19 +25,19 @@ var _is_filling := false
 var _is_refreshing := false
 var _preset := FormRow.make_choice(PackedStringArray(["Preset …"]) + Presets.get_names())
 var _brdf := FormRow.make_choice(_MODEL_NAMES + PackedStringArray(["Measured file …"]))
-var _file := LineEdit.new()
+var _file := FileField.make("res://gold.binary", {"*.binary": "MERL BRDF", "*.bsdf": "RGL BRDF"})
 var _roughness := FormRow.make_number(0.01, 1.0, 0.001)
 var _anisotropy := FormRow.make_number(-1.0, 1.1, 0.001)
 var _alpha_x := FormRow.make_number(0.0001, 2.0, 0.0001)
 var _alpha_y := FormRow.make_number(0.0001, 2.0, 0.0001)
 var _lobes := FormRow.make_choice(["4", "8", "16", "24", "32", "Automatic"])
 var _target := FormRow.make_number(10.0, 46.0, 0.5, "dB")
+var _environment := FileField.make("none", {"*.exr,*.hdr": "Panoramas"})
 var _bake := Button.new()
 var _status := Label.new()
 var _file_row: Control
-var _target_row: Control
+var _automatic_rows: Array[Control] = []
 var _width_rows: Array[Control] = []
-var _file_dialog: EditorFileDialog
 
 
 static func make(queue: BakeQueue, for_table: LobeTable) -> VBoxContainer:
@@ -52,7 +53,7 @@ static func make(queue: BakeQueue, for_table: LobeTable) -> VBoxContainer:
 func _build() -> void:
 	_add("Preset", _preset, "Fills in what a material is commonly like.")
 	_add("BRDF", _brdf, "The reflectance to be fitted: a model, or a file of measurements.")
-	_file_row = _add("File", _make_file_field(), "MERL's .binary, or an RGB .bsdf of RGL's.")
+	_file_row = _add("File", _file, "MERL's .binary, or an RGB .bsdf of RGL's.")
 	_width_rows = [
 		_add("Roughness", _roughness, "As LobeMaterial3D and StandardMaterial3D have it."),
 		_add(
@@ -64,7 +65,14 @@ func _build() -> void:
 		_add("Alpha Y", _alpha_y, "The microfacets' width along the bitangent."),
 	]
 	_add("Lobes", _lobes, "Texture fetches a pixel. Automatic takes the fewest that do.")
-	_target_row = _add("Target", _target, "The PSNR to be reached, in decibels.")
+	_automatic_rows = [
+		_add("Target", _target, "The PSNR to be reached, in decibels."),
+		_add(
+			"Environment",
+			_environment,
+			"A panorama in which the target is to be reached, besides a built-in one of small lamps."
+		),
+	]
 	_bake.text = "Bake"
 	_bake.tooltip_text = "Fits the lobes. Undo brings the table back that was there before."
 	_status.autowrap_mode = TextServer.AUTOWRAP_WORD_SMART
@@ -73,13 +81,14 @@ func _build() -> void:
 	add_child(_status)
 	_preset.item_selected.connect(_on_preset)
 	_brdf.item_selected.connect(_on_brdf)
-	_file.text_submitted.connect(_on_file)
+	_file.chosen.connect(_on_file)
 	_roughness.value_changed.connect(_on_roughness.unbind(1))
 	_anisotropy.value_changed.connect(_on_roughness.unbind(1))
 	_alpha_x.value_changed.connect(_on_alpha.unbind(1))
 	_alpha_y.value_changed.connect(_on_alpha.unbind(1))
 	_lobes.item_selected.connect(_on_lobes)
 	_target.value_changed.connect(_on_target)
+	_environment.chosen.connect(_on_environment)
 	_bake.pressed.connect(bake)
 
 
@@ -118,38 +127,14 @@ func _add(text: String, control: Control, tooltip: String) -> Control:
 	return row
 
 
-func _make_file_field() -> Control:
-	var field := HBoxContainer.new()
-	var browse := Button.new()
-	browse.text = "…"
-	browse.tooltip_text = "Chooses a file."
-	browse.pressed.connect(_browse)
-	_file.size_flags_horizontal = Control.SIZE_EXPAND_FILL
-	_file.placeholder_text = "res://gold.binary"
-	field.add_child(_file)
-	field.add_child(browse)
-	return field
-
-
-func _browse() -> void:
-	if _file_dialog == null:
-		_file_dialog = EditorFileDialog.new()
-		_file_dialog.file_mode = EditorFileDialog.FILE_MODE_OPEN_FILE
-		_file_dialog.access = EditorFileDialog.ACCESS_FILESYSTEM
-		_file_dialog.add_filter("*.binary", "MERL BRDF")
-		_file_dialog.add_filter("*.bsdf", "RGL BRDF")
-		_file_dialog.file_selected.connect(_on_file)
-		add_child(_file_dialog)
-	_file_dialog.popup_file_dialog()
-
-
 # Shows the recipe.
 func _fill() -> void:
 	_is_filling = true
 	var measured := recipe.is_measured()
 	var widths := recipe.get_roughness()
 	_brdf.selected = _MODEL_NAMES.size() if measured else Recipe.MODELS.find(recipe.brdf)
-	_file.text = recipe.brdf if measured else ""
+	_file.show_path(recipe.brdf if measured else "")
+	_environment.show_path(recipe.environment)
 	_roughness.value = widths.x
 	_anisotropy.value = widths.y
 	_alpha_x.value = recipe.alpha.x
@@ -161,7 +146,8 @@ func _fill() -> void:
 	_file_row.visible = measured
 	for row in _width_rows:
 		row.visible = not measured
-	_target_row.visible = recipe.lobes == Recipe.AUTOMATIC
+	for row in _automatic_rows:
+		row.visible = recipe.lobes == Recipe.AUTOMATIC
 	_is_filling = false
 
 
@@ -177,7 +163,7 @@ func _on_brdf(index: int) -> void:
 
 
 func _on_file(path: String) -> void:
-	recipe.brdf = ProjectSettings.localize_path(path)
+	recipe.brdf = path
 	_fill()
 
 
@@ -210,6 +196,10 @@ func _on_lobes(index: int) -> void:
 
 func _on_target(value: float) -> void:
 	recipe.target = value
+
+
+func _on_environment(path: String) -> void:
+	recipe.environment = path
 
 
 # Several properties change at once, by an undo for instance.

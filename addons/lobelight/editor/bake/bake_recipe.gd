@@ -22,6 +22,8 @@ var alpha := Vector2(0.1, 0.1)
 var lobes := 8
 ## Decibels to be reached with [constant AUTOMATIC].
 var target := 30.0
+## A panorama's path: with [constant AUTOMATIC] the target is to be reached in it too.
+var environment := ""
 
 
 ## What the table was baked from, as far as it tells.
@@ -33,12 +35,19 @@ static func from_table(table: LobeTable) -> RefCounted:
 	recipe.alpha = widths.clampf(0.0001, 2.0) if widths.is_finite() else Vector2(0.1, 0.1)
 	recipe.lobes = kept.get("lobes", table.lobe_count if table.lobe_count > 0 else 8)
 	recipe.target = kept.get("target", 30.0)
+	recipe.environment = kept.get("environment", "")
 	return recipe
 
 
 ## For the table's metadata.
 func to_dictionary() -> Dictionary:
-	return {"brdf": brdf, "alpha": alpha, "lobes": lobes, "target": target}
+	return {
+		"brdf": brdf,
+		"alpha": alpha,
+		"lobes": lobes,
+		"target": target,
+		"environment": environment,
+	}
 
 
 ## For [method LobeTask.start].
@@ -49,6 +58,8 @@ func to_request() -> Dictionary:
 	if lobes == AUTOMATIC:
 		request["lobes"] = "auto"
 		request["target"] = target
+		if environment:
+			request["environments"] = [environment]
 	else:
 		request["lobes"] = lobes
 	return request
@@ -60,12 +71,16 @@ func is_measured() -> bool:
 
 ## Why it cannot be baked, in a sentence; empty if nothing is known against it.
 func get_problem() -> String:
-	if not is_measured():
-		return ""
 	if brdf.is_empty():
 		return "Choose a file of measurements: MERL's .binary or an RGB .bsdf of the RGL database."
-	if not FileAccess.file_exists(brdf):
-		return "%s: there is no such file." % brdf
+	var files: PackedStringArray = []
+	if is_measured():
+		files.append(brdf)
+	if lobes == AUTOMATIC and environment:
+		files.append(environment)
+	for file in files:
+		if not FileAccess.file_exists(file):
+			return "%s: there is no such file." % file
 	return ""
 
 
