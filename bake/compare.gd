@@ -14,6 +14,7 @@ const OPTIONS: PackedStringArray = [
 	"views",
 	"bias",
 	"timing-rounds",
+	"timing-size",
 	"out",
 ]
 const LEAST_SIZE := 8
@@ -55,6 +56,9 @@ func _read_arguments() -> void:
 	_comparison.size = _arguments.integer("size", 256, LEAST_SIZE, LARGEST_SIZE)
 	_comparison.timing_rounds = _arguments.integer(
 		"timing-rounds", Comparison.TIMING_ROUNDS, 0, MOST_TIMING_ROUNDS
+	)
+	_comparison.timing_size = _arguments.integer(
+		"timing-size", Comparison.TIMING_SIZE, LEAST_SIZE, LARGEST_SIZE
 	)
 	_read_stage(_comparison.stage)
 	_arguments.required("out")

@@ -2,11 +2,11 @@ extends SceneTree
 ## Many comparisons in one run of the engine, for `./dev accuracy` and `./dev report`.
 ##
 ## `--list FILE` is JSON: {"env", "brdf", "alpha", "methods", "size", "samples", "timing_rounds",
-## "out"} for each [Comparison], paths absolute, and where wanted "tolerant" and "stage", the
-## properties of [ComparisonStage] that differ from the usual: {"filter", "pyramid_size",
-## "table_views", "toral_coverage", "toral_views", "fis_bias"}. Those of one map and stage follow
-## one another best, since a map's pyramid is kept while the next comparison needs it; tables are
-## kept throughout. After each, a line "compared INDEX" goes to standard output.
+## "out"} for each [Comparison], paths absolute, and where wanted "timing_size", "tolerant" and
+## "stage", the properties of [ComparisonStage] that differ from the usual: {"filter",
+## "pyramid_size", "table_views", "toral_coverage", "toral_views", "fis_bias"}. Those of one map and
+## stage follow one another best, since a map's pyramid is kept while the next comparison needs it;
+## tables are kept throughout. After each, a line "compared INDEX" goes to standard output.
 
 var _arguments := CommandLine.new("accuracy", ["list"])
 var _stage: ComparisonStage
@@ -49,6 +49,7 @@ func _compare(entry: Dictionary) -> void:
 	comparison.size = int(entry["size"] as float)
 	comparison.samples = int(entry["samples"] as float)
 	comparison.timing_rounds = int(entry["timing_rounds"] as float)
+	comparison.timing_size = entry.get("timing_size", Comparison.TIMING_SIZE)
 	comparison.out = entry["out"]
 	comparison.tolerant = entry.get("tolerant", false)
 	if not comparison.tolerant:

@@ -5,8 +5,14 @@ extends RefCounted
 ## Writes reference.exr, reference_error.exr, <method>.exr and plan.json, which says what was drawn
 ## and how; tools/compare/metrics.py turns them into figures and pictures.
 
+const ComparisonSphere := preload("comparators/comparison_sphere.gd")
 ## Rounds in which the GPU time of every method is measured once.
 const TIMING_ROUNDS := 15
+## Pixels along the side where times are measured. What a renderer spends on any frame weighs less
+## than on smaller ones.
+const TIMING_SIZE := 256
+# The name of the sphere that reflects nothing, among the measured ones; no method has it.
+const _EMPTY := ""
 
 ## The absolute path of the panorama that [member stage] has.
 var environment_path: String
@@ -19,6 +25,8 @@ var size := 256
 ## Of the reference, a pixel; 0 leaves it to the integrator.
 var samples := 0
 var timing_rounds := TIMING_ROUNDS
+## Pixels along the side where times are measured, whatever [member size] is.
+var timing_size := TIMING_SIZE
 ## The absolute path of the folder for the files.
 var out: String
 var stage: ComparisonStage
@@ -62,7 +70,9 @@ static func load_panorama(path: String) -> Dictionary:
 
 
 func _compare(methods: Array[ComparisonMethod]) -> String:
-	var reference := await ReferenceCache.render(_reference_options(), stage.tree)
+	var reference := await ResultCache.run(
+		&"LobeReference", _reference_options(), "integrating", stage.tree
+	)
 	if reference.has("error"):
 		return reference["error"]
 	if DirAccess.make_dir_recursive_absolute(out) != OK:
@@ -76,18 +86,22 @@ func _compare(methods: Array[ComparisonMethod]) -> String:
 			viewports[method.name] = _make_viewport(method)
 			failure = await _draw(method.name, viewports[method.name])
 	if failure.is_empty():
+		if timing_rounds > 0:
+			viewports[_EMPTY] = _make_empty_viewport()
 		var times := await _measure(viewports)
 		var plan := {
 			"env": environment_path,
 			"brdf": brdf,
 			"alpha": Array(alpha),
 			"size": size,
+			"timing_size": timing_size,
 			"renderer": RenderingServer.get_current_rendering_method(),
 			"driver": RenderingServer.get_video_adapter_name(),
 			"driver_type": RenderingServer.get_video_adapter_type(),
 			"driver_version": RenderingServer.get_video_adapter_api_version(),
 			"engine": Engine.get_version_info()["string"],
 			"reference_samples": reference["samples"],
+			"fixed_ms_rounds": Array(times.get(_EMPTY, PackedFloat32Array())),
 			"methods": await _entries(methods, times),
 			"unavailable": _unavailable,
 		}
@@ -134,6 +148,15 @@ func _make_viewport(method: ComparisonMethod) -> LinearViewport:
 	return viewport
 
 
+## The sphere as all methods draw it, but black: what the renderer takes for any frame and for the
+## pixels of any material.
+func _make_empty_viewport() -> LinearViewport:
+	var viewport := LinearViewport.new(size)
+	stage.tree.root.add_child(viewport)
+	viewport.add_child(ComparisonSphere.make("empty.gdshaderinc", "empty_specular", [], {}))
+	return viewport
+
+
 ## Saves what a viewport shows. Returns one sentence on failure, otherwise empty.
 func _draw(title: String, viewport: LinearViewport) -> String:
 	# Drivers compile in the background: the first frames may lack the material.
@@ -143,16 +166,17 @@ func _draw(title: String, viewport: LinearViewport) -> String:
 	return _save(title, picture.get_data().to_float32_array())
 
 
-## GPU milliseconds of every method, one a round: all of them in each round, so that what disturbs
-## the machine disturbs all of them alike. Empty where the driver gives no times.
+## GPU milliseconds of every method at [member timing_size], one a round: all of them in each round,
+## so that what disturbs the machine disturbs all alike. Empty where the driver gives no times.
 func _measure(
 	viewports: Dictionary[String, LinearViewport]
 ) -> Dictionary[String, PackedFloat32Array]:
 	var times: Dictionary[String, PackedFloat32Array] = {}
-	if viewports.is_empty() or timing_rounds == 0:
+	if timing_rounds == 0:
 		return times
 	for name: String in viewports:
 		times[name] = PackedFloat32Array()
+		viewports[name].size = Vector2i(timing_size, timing_size)
 	var line := ProgressLine.new("timing")
 	for round_index in timing_rounds:
 		line.show(float(round_index) / timing_rounds)

@@ -59,9 +59,7 @@ func _notification(what: int) -> void:
 func bake(recipe: Dictionary, title: String) -> Dictionary:
 	var key := str(recipe)
 	if not tables.has(key):
-		var result := await NativeLibrary.run(
-			NativeLibrary.create(&"LobeBaker"), recipe, "baking %s" % title, tree
-		)
+		var result := await ResultCache.run(&"LobeBaker", recipe, "baking %s" % title, tree)
 		if result.has("error"):
 			return result
 		tables[key] = LobeTable.from_baked(result)

@@ -142,6 +142,8 @@ refuses "accuracy, a map that is not there" "no such map" accuracy --quick --map
 refuses "accuracy, a size out of range" "--size" accuracy --size 4
 refuses "accuracy, an unknown option" "--frames" accuracy --frames 3
 refuses "report, an unknown renderer" "vulkan9" report --renderers mobile,vulkan9
+refuses "report, an unknown method" "gmm9" report --methods gmm8,gmm9
+refuses "report, no time" "--minutes" report --minutes 0
 refuses "report, a map that is not there" "no such map" report --quick --maps absent.exr
 refuses "report, JSON in a missing folder" "missing/report.json" report --json missing/report.json
 DISPLAY="" WAYLAND_DISPLAY="" refuses "report, a GPU without a display" "DISPLAY" report --device

@@ -37,7 +37,7 @@ def measured(psnr, fetches, rounds, baseline=None):
     return {
         "fetches": fetches, "probes": fetches, "table_fetches": 0, "psnr": psnr, "flip": 0.01, "relative_rmse": 0.02,
         "gpu_ms": sorted(rounds)[len(rounds) // 2] if rounds else None, "gpu_ms_ratio": ratio, "gpu_ms_rounds": rounds,
-        "settings": {},
+        "fixed_ms": 0.1 if rounds else None, "gpu_ms_ratio_without_fixed": ratio, "settings": {},
     }  # fmt: skip
 
 
@@ -46,8 +46,8 @@ def entry(material, methods, **changes):
     rounds = {name: [own[2], 2 * own[2], own[2]] if own[2] else [] for name, own in methods.items()}
     made = {
         "study": "materials", "device": cases.SOFTWARE, "renderer": "mobile", "map": cases.TIMED_MAP, "brdf": material[0],
-        "alpha": list(material[1]), "stage": {}, "size": 64, "samples": 64, "timing_rounds": 3, "key": "k", "sheet": "",
-        "where": WHERE, "unavailable": {},
+        "alpha": list(material[1]), "stage": {}, "size": 64, "samples": 64, "timing_rounds": 3, "timing_size": 256, "key": "k",
+        "sheet": "", "where": WHERE, "unavailable": {}, "fixed_ms_rounds": [0.2, 0.4, 0.2],
         "methods": {n: measured(own[0], own[1], rounds[n], rounds.get("gmm8")) for n, own in methods.items()},
     }  # fmt: skip
     return {**made, **changes}
@@ -123,6 +123,8 @@ class VerdictTest(unittest.TestCase):
         first, second = analysis.goals(entries)
         self.assertEqual((first["method"], first["reached"]), ("gmm8", True))
         self.assertAlmostEqual(first["time"], 1 / 3.3)
+        # The renderer's 0.2 ms of each.
+        self.assertAlmostEqual(first["time_without_fixed"], 0.8 / 3.1)
         # Of different widths the fewest lobes that do.
         self.assertEqual((second["method"], second["reached"]), ("gmm4", True))
 
@@ -169,6 +171,24 @@ class CasesTest(unittest.TestCase):
         for method in cases.METHODS:
             self.assertNotEqual(cases.family_of(method), method)
             self.assertTrue(any(method.startswith(name) for name in verdicts.DESCRIPTIONS), method)
+
+    def test_what_says_the_most_comes_first(self):
+        """A run that is stopped early has the goals' cases, in every renderer."""
+        plan = report.ordered(cases.full())
+        timed = [case.timed for case in plan]
+        self.assertEqual(timed, sorted(timed, reverse=True))
+        first = plan[: timed.index(False)]
+        self.assertEqual(list(dict.fromkeys(case.renderer for case in first)), list(cases.RENDERERS))
+        for renderer in cases.RENDERERS:
+            of_goal = [(c.brdf, tuple(c.alpha)) in analysis.goal_materials() for c in first if c.renderer == renderer]
+            self.assertEqual(of_goal, sorted(of_goal, reverse=True))
+            self.assertGreaterEqual(sum(of_goal), 4)
+
+    def test_some_methods_only(self):
+        plan = cases.only_methods(cases.full(), ("gmm8", "fis40"))
+        self.assertTrue(all({"gmm8", "fis40"} & set(case.methods) for case in plan))
+        self.assertTrue(all(set(case.methods) <= {"gmm8", "fis40", cases.REFERENCE} for case in plan))
+        self.assertTrue(all(case.study != "coverage" for case in plan))
 
     def test_order_keeps_pyramids(self):
         """What shares a renderer, a map and settings is drawn in a row."""
@@ -252,6 +272,28 @@ class MeasurementsTest(unittest.TestCase):
             left_out = report.measure(plan, self.options(), paths, {}, None)
         self.assertEqual(left_out, {bad.title(): "it died"})
         self.assertEqual([pathlib.Path(out).name for out in tried], [c.name() for c in (plan[0], bad, bad, plan[2])])
+
+    def test_it_stops_when_the_time_is_over(self):
+        """The case that is being drawn is kept; none is tried after it, and none counts as left out."""
+        plan, tried = cases.quick()[:3], []
+
+        def draw(entries, *_):
+            for index in range(len(entries)):
+                tried.append(index)
+                yield index
+
+        options = self.options("--minutes", "5")
+        with contextlib.ExitStack() as changed:
+            for place, name, value in (
+                (batch, "draw", draw),
+                (report, "judge", lambda *_: "fine"),
+                (runs.Progress, "seconds", lambda progress: 200.0 * progress.done),
+            ):
+                changed.enter_context(unittest.mock.patch.object(place, name, value))
+            changed.enter_context(contextlib.redirect_stderr(io.StringIO()))
+            paths = dict.fromkeys([cases.TIMED_MAP], pathlib.Path("map"))
+            self.assertEqual(report.measure(plan, options, paths, {}, None), {})
+        self.assertEqual(tried, [0, 1])
 
     def test_a_software_driver_is_no_gpu(self):
         for plan in ({"driver": "llvmpipe (LLVM 21)", "driver_type": 0}, {"driver": "Some CPU", "driver_type": 4}):

@@ -65,6 +65,22 @@ func test_known_and_unknown_names() -> void:
 		assert_str(CompareMethods.error(name)).contains("is unknown")
 
 
+func test_all_methods_draw_the_same_pixels() -> void:
+	# Times are of equal work: the pixels whose centre is on the sphere, and no others.
+	_bench.stage.panorama = Kit.constant(0.5)
+	var names := CompareMethods.RIVALS + PackedStringArray(["gmm1", "gmm2", "gmm8"])
+	for title in names:
+		await _bench.drawn(_bench.make(title, "ward", 0.2, 0.2))
+		var image := _bench.view.get_texture().get_image()
+		var wrong := 0
+		for y in SIDE:
+			for x in SIDE:
+				var p := Vector2(2 * x + 1, 2 * y + 1) / SIDE - Vector2.ONE
+				var is_drawn := image.get_pixel(x, y).a > 0.5
+				wrong += int(is_drawn != (p.length_squared() < 1.0))
+		assert_int(wrong).append_failure_message("%s: %d pixels" % [title, wrong]).is_equal(0)
+
+
 func test_hammersley_fills_the_square_evenly() -> void:
 	# Of 64 points, one in each elementary interval of area 1/64.
 	for columns: int in [1, 4, 8, 64]:

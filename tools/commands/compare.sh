@@ -6,7 +6,7 @@ usage() {
   cat <<USAGE
 usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out DIR [OPTIONS]
 
---methods       gmm<lobes> (gmm4, gmm8, gmm16 …); gmm<lobes>r: with refined lobes
+--methods       gmm<lobes> (gmm1, gmm2, gmm4, gmm8 …); gmm<lobes>r: with refined lobes
                 fis8 fis16 fis40: filtered importance sampling on 2x2 means; fis40g: on the pyramid of gmm
                 toral8 toral16: the thesis as written
                 allfreq1 allfreq8: spherical Gaussians for the normals' density, warped (Wang et al. 2009)
@@ -21,6 +21,7 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
 --filter F      of the pyramid of gmm, fis40g, allfreq, asg and closed8: disc (default), gaussian, binomial or box
 --samples N     of the reference, a pixel
 --timing-rounds N   GPU times of every method, in turns (default 15); 0 measures none
+--timing-size N pixels along the side where times are measured (default 256)
 --coverage C    of toral: the share of a lobe that its texels cover (default 0.47)
 --views T,P     of toral: fitted views, elevations and azimuths (default 64,1 or 64,32)
 --bias B        of fis: added to the published level (default 0)
@@ -29,6 +30,8 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
 Writes reference.exr, <method>.exr (linear radiance), <method>_difference.png, sheet.png, metrics.json and plan.json,
 which says how each method was set up and has the times of the rounds.
 gpu_ms is a median; gpu_ms_ratio the median of each round's time over that of gmm8, or of the first method without it.
+fixed_ms is what the renderer takes for a frame whose sphere reflects nothing, gpu_ms_ratio_without_fixed the ratio of
+what both times have above it.
 PSNR: over the sphere's pixels with x² + y² < 0.9995; exposure takes the reference's median of (R+G+B)/3
 to 0.18; clamped to [0, 1]; power 1/2.2; −10 log10 of the mean squared error of the three channels.
 USAGE

@@ -15,6 +15,9 @@ Metric (all figures over the pixels with x² + y² < 0.9995, x and y from −1 t
   gpu_ms_ratio   median over the rounds of the method's time over that of gmm8 (of the first method
                  drawn where gmm8 is not) in the same round: what slows the machine down for a while
                  slows down both
+  fixed_ms       median of the GPU times of a sphere that reflects nothing, drawn in the same rounds: what the
+                 renderer takes for a frame, whatever the method
+  gpu_ms_ratio_without_fixed  as gpu_ms_ratio, of what both times have above the fixed one of the round
 The row `reference` compares the reference with itself plus its standard error, which is half the
 difference of its two independent halves: the change that doubling the samples would bring.
 A picture with a non-finite pixel, and a reference whose median is zero, are errors.
@@ -155,6 +158,11 @@ def median_ratio(times, baseline):
     return float(np.median(ratios)) if ratios else None
 
 
+def median_ratio_without(fixed, times, baseline):
+    """As median_ratio(), of what both have above `fixed`, round by round; None where there is no such list."""
+    return median_ratio([t - f for t, f in zip(times, fixed)], [b - f for b, f in zip(baseline, fixed)])
+
+
 def baseline_of(methods):
     """The times that the others are related to: (its method, its rounds)."""
     drawn = [m for m in methods if m["gpu_ms_rounds"]]
@@ -162,7 +170,7 @@ def baseline_of(methods):
     return (chosen["method"], chosen["gpu_ms_rounds"]) if chosen else (None, [])
 
 
-def row_of(entry, renderer, picture, reference, exposure, mask, baseline):
+def row_of(entry, renderer, picture, reference, exposure, mask, baseline, fixed):
     """One row of metrics.json; its keys are the contract of ./dev compare."""
     times = entry["gpu_ms_rounds"]
     return {
@@ -176,6 +184,8 @@ def row_of(entry, renderer, picture, reference, exposure, mask, baseline):
         "relative_rmse": relative_rmse(picture, reference, mask),
         "gpu_ms": float(np.median(times)) if times else None,
         "gpu_ms_ratio": median_ratio(times, baseline),
+        "fixed_ms": float(np.median(fixed)) if times and fixed else None,
+        "gpu_ms_ratio_without_fixed": median_ratio_without(fixed, times, baseline),
     }
 
 
@@ -186,6 +196,7 @@ def judge(folder):
     mask = sphere_mask(reference.shape[0])
     exposure = exposure_of(reference, mask)
     _, baseline = baseline_of(plan["methods"])
+    fixed = plan.get("fixed_ms_rounds", [])
 
     rows = []
     shown_reference = encode(reference, exposure) * mask[..., None]
@@ -198,7 +209,7 @@ def judge(folder):
             picture = read_rgb(os.path.join(folder, method + ".exr"))
         if picture.shape != reference.shape:
             raise MetricError(f"{method}.exr: its size is not the reference's.")
-        row = row_of(entry, plan["renderer"], picture, reference, exposure, mask, baseline)
+        row = row_of(entry, plan["renderer"], picture, reference, exposure, mask, baseline, fixed)
         rows.append(row)
         if method == "reference":
             continue
@@ -221,7 +232,7 @@ def print_table(plan, rows):
     alpha = plan["alpha"]
     print(f"{plan['brdf']} ({alpha[0]:g}, {alpha[1]:g})  {os.path.basename(plan['env'])}  {plan['renderer']}")
     of_baseline = f"of {baseline_of(plan['methods'])[0] or '–'}"
-    head = ("method", "fetches", "probes", "table", "PSNR dB", "FLIP", "rel. RMSE", "GPU ms", of_baseline)
+    head = ("method", "fetches", "probes", "table", "PSNR dB", "FLIP", "rel. RMSE", "GPU ms", of_baseline, "no fixed")
     print("  ".join(f"{h:>9}" for h in head))
     for row in rows:
         cells = (
@@ -234,8 +245,12 @@ def print_table(plan, rows):
             number(row["relative_rmse"], 4),
             number(row["gpu_ms"], 3),
             number(row["gpu_ms_ratio"], 2),
+            number(row["gpu_ms_ratio_without_fixed"], 2),
         )
         print("  ".join(f"{c:>9}" for c in cells))
+    if plan.get("fixed_ms_rounds"):
+        fixed = number(float(np.median(plan["fixed_ms_rounds"])), 3)
+        print(f"Of GPU ms at {plan['timing_size']}², {fixed} are the renderer's for any frame; 'no fixed': without them.")
 
 
 def main():

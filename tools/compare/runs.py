@@ -90,11 +90,15 @@ class Progress:
         self.weight, self.done_weight = sum(weights), 0.0
         self.started = time.monotonic()
 
+    def seconds(self):
+        """Since the run began."""
+        return time.monotonic() - self.started
+
     def step(self, weight, title, said):
         """One line on stderr: a case of this weight is done."""
         self.done += 1
         self.done_weight += weight
-        seconds = (time.monotonic() - self.started) * (self.weight / self.done_weight - 1.0)
+        seconds = self.seconds() * (self.weight / self.done_weight - 1.0)
         left = f"{seconds / 60:.0f} min left" if seconds >= 90 else f"{seconds:.0f} s left"
         print(f"[{self.done}/{self.count}] {title}: {said}; {left}", file=sys.stderr, flush=True)
 

@@ -14,7 +14,7 @@ OURS = "gmm"
 # Every method of the contract, by family. Those that bake/methods.gd does not know, or that a renderer cannot draw, are
 # recorded with the reason.
 FAMILIES = {
-    "Lobelight": ("gmm4", "gmm8", "gmm16", "gmm24", "gmm32"),
+    "Lobelight": ("gmm1", "gmm2", "gmm4", "gmm8", "gmm16", "gmm24", "gmm32"),
     "Töral 2015": ("toral8", "toral16"),
     "importance sampling": ("fis8", "fis16", "fis40"),
     "importance sampling, our pyramid": ("fis40g",),
@@ -38,7 +38,7 @@ OTHER = (("ggx", (0.1, 0.1)), ("ggx", (0.05, 0.2)))
 # Of which the thesis gives figures.
 THESIS_MATERIALS = (ISOTROPIC[0], ANISOTROPIC[0])
 MATERIALS = (*ISOTROPIC, *ANISOTROPIC, *OTHER)
-# In the renderers after the first, on a GPU, on other maps than the timed one, and by other coverages.
+# On a GPU, by other coverages, and with one more in the renderers after the first and on other maps than the timed one.
 FEWER_MATERIALS = (ISOTROPIC[0], ISOTROPIC[2], ANISOTROPIC[0], ANISOTROPIC[1])
 STUDIED = (ISOTROPIC[0], ISOTROPIC[2], ANISOTROPIC[1])
 QUICK_MATERIALS = (ISOTROPIC[2], ANISOTROPIC[1])
@@ -121,7 +121,7 @@ def full(renderers=RENDERERS, given_maps=()):
     plan += _materials(first, (*FEWER_MATERIALS, OTHER[0]), (*OTHER_MAPS, SYNTHETIC, *given_maps))
     plan += _studies(first, STUDIED, FEWER_MATERIALS, ISOTROPIC_VIEWS, ANISOTROPIC_VIEWS, FACE_SIZES)
     for renderer in others:
-        plan += _materials(renderer, FEWER_MATERIALS, (TIMED_MAP,))
+        plan += _materials(renderer, (*FEWER_MATERIALS, OTHER[0]), (TIMED_MAP,))
     return plan
 
 
@@ -139,6 +139,16 @@ def on_gpu(renderers=RENDERERS):
     """What a GPU is asked: times."""
     materials = [case for renderer in renderers for case in _materials(renderer, FEWER_MATERIALS, (TIMED_MAP,))]
     return [dataclasses.replace(case, device=GPU, pictured=False) for case in materials]
+
+
+def only_methods(plan, methods):
+    """The cases without other methods than these and the reference; those that then have none are left out."""
+    found = []
+    for case in plan:
+        kept = tuple(method for method in case.methods if method in methods)
+        if kept:
+            found.append(dataclasses.replace(case, methods=(*kept, REFERENCE)))
+    return found
 
 
 def _materials(renderer, materials, maps):

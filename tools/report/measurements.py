@@ -1,9 +1,11 @@
 """results.json and results.csv of `./dev report`: what was measured, where, and whether it is still true.
 
-{"cases": [{"study", "device", "renderer", "map", "brdf", "alpha", "stage", "size", "samples", "timing_rounds", "key",
+{"cases": [{"study", "device", "renderer", "map", "brdf", "alpha", "stage", "size", "samples", "timing_rounds",
+"timing_size" in pixels along the side (0: no times), "key",
 "sheet": a picture's file or "", "where": {"machine", "driver", "driver_version", "engine", "date"},
 "methods": {METHOD: {"fetches", "probes", "table_fetches", "psnr" in dB, "flip", "relative_rmse", "gpu_ms",
-"gpu_ms_ratio" to gmm8, "gpu_ms_rounds", "settings"}}, "unavailable": {METHOD: reason}}]}
+"gpu_ms_ratio" to gmm8, "fixed_ms", "gpu_ms_ratio_without_fixed", "gpu_ms_rounds", "settings"}}, "fixed_ms_rounds": of a
+sphere that reflects nothing, "unavailable": {METHOD: reason}}]}
 
 A case counts as measured if its key, a hash of the sources that draw it and of the map, is today's, and if every method
 wanted is in it or cannot be drawn.
@@ -17,7 +19,8 @@ import pathlib
 import platform
 
 IDENTITY = ("device", "renderer", "map", "brdf", "alpha", "stage")
-COLUMNS = ("fetches", "probes", "table_fetches", "psnr", "flip", "relative_rmse", "gpu_ms", "gpu_ms_ratio")
+COLUMNS = ("fetches", "probes", "table_fetches", "psnr", "flip", "relative_rmse", "gpu_ms", "gpu_ms_ratio", "fixed_ms")
+COLUMNS += ("gpu_ms_ratio_without_fixed",)
 
 
 def machine():
@@ -42,6 +45,7 @@ def conditions_of(case, options, keys):
         "size": options.size,
         "samples": options.samples,
         "timing_rounds": options.timing_rounds if case.timed else 0,
+        "timing_size": options.timing_size if case.timed else 0,
         "key": keys[case.map],
     }
 

@@ -53,13 +53,13 @@ def summary_of(page):
     }
 
 
-def write(out, entries, report_folder, left_out):
-    """Writes README.md, index.html and the figures; returns the verdicts for --json."""
+def write(out, entries, report_folder, left_out, to_come=0):
+    """Writes README.md, index.html and the figures; returns the verdicts for --json. `to_come`: cases not measured yet."""
     # Software first: it has the most.
     entries = sorted(entries, key=lambda entry: entry["device"] != cases.SOFTWARE)
     page = Page(out / "compare", entries, report_folder)
     verdicts.introduction(page)
-    verdicts.in_short(page, left_out)
+    verdicts.in_short(page, left_out, to_come)
     for section in SECTIONS:
         section(page)
     measurements.write(out / "README.md", doc.markdown(page.blocks))

@@ -8,12 +8,14 @@ writes tables, figures and the page.
 import argparse
 import contextlib
 import datetime
+import itertools
 import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(1, str(ROOT / "tools/compare"))
 
+import analysis  # noqa: E402
 import batch  # noqa: E402
 import cases  # noqa: E402
 import measurements  # noqa: E402
@@ -26,6 +28,8 @@ WORK = ROOT / "build/report"
 REPORT = ROOT / "docs/report"
 MAPS = runs.own_maps(WORK)
 SIZE, QUICK_SIZE, GPU_SIZE = 128, 64, 512
+# Where times are taken: what a renderer spends on any frame weighs less on large ones.
+TIMING_SIZE, QUICK_TIMING_SIZE, GPU_TIMING_SIZE = 256, 128, 1024
 SAMPLES, GPU_SAMPLES = 640, 256
 TIMING_ROUNDS, QUICK_TIMING_ROUNDS = 7, 5
 # Of the engine, on one case; after that the case is left out.
@@ -36,25 +40,32 @@ DEVICE_TYPE_CPU = 4
 SOFTWARE_DRIVERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "software")
 
 
-def renderer_list(text):
-    names = tuple(dict.fromkeys(name for name in text.split(",") if name))
-    unknown = [name for name in names if name not in cases.RENDERERS]
-    if unknown or not names:
-        wanted = ", ".join(cases.RENDERERS)
-        raise argparse.ArgumentTypeError(f"there is no renderer '{','.join(unknown)}'; take some of {wanted}")
-    return names
+def listed(known, what):
+    """Converts "A,B" to a tuple of names that are all among the known ones."""
+    def convert(text):
+        names = tuple(dict.fromkeys(name for name in text.split(",") if name))
+        unknown = [name for name in names if name not in known]
+        if unknown or not names:
+            raise argparse.ArgumentTypeError(f"there is no {what} '{','.join(unknown)}'; take some of {', '.join(known)}")
+        return names
+
+    return convert
 
 
 def read_options(arguments):
     parser = runs.Parser("report")
     parser.add_common()
     parser.add_argument("--device", action="store_true")
-    parser.add_argument("--renderers", type=renderer_list)
+    parser.add_argument("--renderers", type=listed(cases.RENDERERS, "renderer"))
+    parser.add_argument("--methods", type=listed(cases.METHODS, "method"))
+    parser.add_argument("--cases", type=runs.whole_number(1, 10000))
+    parser.add_argument("--minutes", type=runs.whole_number(1, 10000))
     options = parser.parse_args(arguments)
     runs.check_files(options, MAPS)
     if options.out and options.out.exists() and not options.out.is_dir():
         raise runs.Problem(f"{options.out}: is not a folder")
-    given = any((options.maps, options.renderers, options.size, options.samples, options.timing_rounds))
+    given = any((options.maps, options.renderers, options.methods, options.size, options.samples))
+    given = given or any((options.timing_rounds, options.cases))
     if options.out is None:
         # The repository's report is of the repository's maps, whole; a GPU adds to it.
         options.out = WORK / ("quick" if options.quick else "own") if options.quick or given else REPORT
@@ -63,6 +74,7 @@ def read_options(arguments):
         options.renderers = cases.RENDERERS[:1] if options.quick else cases.RENDERERS
     options.size = options.size or (GPU_SIZE if options.device else QUICK_SIZE if options.quick else SIZE)
     options.samples = options.samples or (GPU_SAMPLES if options.device else SAMPLES)
+    options.timing_size = GPU_TIMING_SIZE if options.device else QUICK_TIMING_SIZE if options.quick else TIMING_SIZE
     options.timing_rounds = options.timing_rounds or (QUICK_TIMING_ROUNDS if options.quick else TIMING_ROUNDS)
     return options
 
@@ -80,6 +92,7 @@ def list_entry(case, options, paths):
         "size": options.size,
         "samples": options.samples,
         "timing_rounds": options.timing_rounds if case.timed else 0,
+        "timing_size": options.timing_size,
         "out": str(folder_of(case)),
         "tolerant": True,
         "stage": case.stage,
@@ -111,6 +124,7 @@ def judge(case, options, keys, kept):
         "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d"),
     }
     entry = {"study": case.study, **measurements.conditions_of(case, options, keys), "sheet": sheet, "where": where}
+    entry["fixed_ms_rounds"] = plan["fixed_ms_rounds"]
     kept.add({**entry, "methods": methods, "unavailable": plan.get("unavailable", {})})
     kept.save()
     best = max((m for m in methods if m != cases.REFERENCE), key=lambda m: methods[m]["psnr"] or 0.0, default=None)
@@ -118,14 +132,19 @@ def judge(case, options, keys, kept):
 
 
 def measure(missing, options, paths, keys, kept):
-    """Draws and judges the cases, renderer by renderer. Returns those that the engine could not draw, with the reason.
+    """Draws and judges the cases in their order, one run of the engine for each renderer in a row, until options.minutes
+    are over. Returns those that the engine could not draw, with the reason.
 
     A case at which the engine stops is tried again, then left out.
     """
     progress, left_out, tries = runs.Progress([case.weight() for case in missing]), {}, {}
-    for renderer in dict.fromkeys(case.renderer for case in missing):
-        waiting = [case for case in missing if case.renderer == renderer]
-        while waiting:
+
+    def is_over():
+        return options.minutes is not None and progress.seconds() > 60.0 * options.minutes
+
+    for renderer, cases_of_run in itertools.groupby(missing, key=lambda case: case.renderer):
+        waiting = list(cases_of_run)
+        while waiting and not is_over():
             done = 0
             environment = {"LOBELIGHT_DISPLAY": "real"} if options.device else None
             entries = [list_entry(case, options, paths) for case in waiting]
@@ -139,8 +158,10 @@ def measure(missing, options, paths, keys, kept):
                         said = f"left out, {problem}"
                     done += 1
                     progress.step(case.weight(), case.title(), said)
+                    if is_over():
+                        break
             waiting = waiting[done:]
-            if waiting:
+            if waiting and not is_over():
                 title, reason = waiting[0].title(), batch.failure(WORK)
                 tries[title] = tries.get(title, 0) + 1
                 if tries[title] == MOST_TRIES:
@@ -152,10 +173,25 @@ def measure(missing, options, paths, keys, kept):
 
 
 def ordered(plan):
-    """Map by map and setting by setting, so that each pyramid is made once; timed cases first: they say the most."""
-    keys = [(case.renderer, not case.timed, case.map, str(case.stage)) for case in plan]
-    first = {key: keys.index(key) for key in keys}
-    return sorted(plan, key=lambda case: first[(case.renderer, not case.timed, case.map, str(case.stage))])
+    """The cases that say the most first: those that are timed, in every renderer, then the others.
+
+    Of each renderer, map by map and setting by setting, so that each pyramid is made once; of the timed ones those of
+    the goals before the others.
+    """
+    def shared(case):
+        return (case.renderer, not case.timed, case.map, str(case.stage))
+
+    first = {}
+    for index, case in enumerate(plan):
+        first.setdefault(shared(case), index)
+    goals = analysis.goal_materials()
+    renderers = list(dict.fromkeys(case.renderer for case in plan))
+
+    def rank(case):
+        of_goal = (case.brdf, tuple(case.alpha)) in goals
+        return (not case.timed, renderers.index(case.renderer), first[shared(case)], case.timed and not of_goal)
+
+    return sorted(plan, key=rank)
 
 
 def run(options):
@@ -165,6 +201,9 @@ def run(options):
         plan = cases.on_gpu(options.renderers)
     else:
         plan = (cases.quick if options.quick else cases.full)(options.renderers, given_maps)
+    if options.methods:
+        plan = cases.only_methods(plan, options.methods)
+    plan = ordered(plan)[: options.cases]
     folder = options.out / "compare"
     folder.mkdir(parents=True, exist_ok=True)
     kept = measurements.Measurements(folder)
@@ -172,22 +211,25 @@ def run(options):
     def entry_of(case):
         return kept.entry(measurements.conditions_of(case, options, keys), case.methods, case.pictured)
 
-    missing = [case for case in ordered(plan) if not entry_of(case)]
+    missing = [case for case in plan if not entry_of(case)]
     if len(missing) < len(plan):
         print(f"{len(plan) - len(missing)} of {len(plan)} cases are measured already", file=sys.stderr)
-    left_out = measure(missing, options, paths, keys, kept) if missing else {}
+    left_out = measure(missing, options, paths, keys, kept)
     entries = [entry for entry in map(entry_of, plan) if entry]
+    to_come = len(plan) - len(entries) - len(left_out)
     # What the other kind of device has measured of the same sources and maps stays.
     device = cases.GPU if options.device else cases.SOFTWARE
     entries += [e for e in kept.of_other_devices(device) if e["key"] == keys.get(e["map"])]
     if not entries:
-        raise runs.Problem(f"nothing could be drawn: {next(iter(left_out.values()))}")
+        raise runs.Problem(f"nothing could be drawn: {next(iter(left_out.values()), 'the time was over')}")
     kept.save(entries)
     measurements.write_csv(folder / "results.csv", entries)
-    summary = pages.write(options.out, entries, REPORT, left_out)
+    summary = pages.write(options.out, entries, REPORT, left_out, to_come)
     if options.json:
         metrics.write_json(str(options.json), {**summary, "cases": entries})
     print(f"report: {len(entries)} cases; {options.out / 'README.md'}, {options.out / 'index.html'}")
+    if to_come:
+        print(f"report: {to_come} cases are not measured yet; the same command goes on from here", file=sys.stderr)
     if left_out:
         title, reason = next(iter(left_out.items()))
         raise runs.Problem(f"{len(left_out)} cases could not be measured, the first of them {title}: {reason}")

@@ -26,6 +26,12 @@ DESCRIPTIONS = {
 }
 
 
+def timing_sizes(page):
+    """Of how many pixels the timed frames are, in words; empty without times."""
+    sizes = sorted({entry["timing_size"] for entry in page.entries if entry["timing_size"]})
+    return f" of {joined(f'{size}²' for size in sizes)} pixels" if sizes else ""
+
+
 def introduction(page):
     page.blocks.append(doc.Heading(TITLE, 1))
     maps = joined(dict.fromkeys(entry["map"] for entry in page.entries))
@@ -33,7 +39,7 @@ def introduction(page):
         "Written by `./dev report`. A sphere lit by an environment map, drawn in the engine by every method in the same fragment"
         " function, against a brute-force integrator. PSNR over the sphere's pixels: the reference's median is exposed to 0.18,"
         " clamped, gamma 2.2 (`./dev compare --help`). GPU times are medians over interleaved rounds of a method's time over that"
-        f" of `{cases.BASELINE}` in the same round; drivers in software say what the processor spends, not what a graphics card"
+        f" of `{cases.BASELINE}` in the same round, of whole frames{timing_sizes(page)}; drivers in software say what the processor spends, not what a graphics card"
         f" would. Times are taken on {cases.TIMED_MAP} and serve for the other maps. Maps: {maps}. No fit has seen a map."
     )
     page.text(source_of(page.entries))
@@ -42,7 +48,7 @@ def introduction(page):
     page.text(data + (f" Other reports: {joined(others)}." if others else ""))
 
 
-def in_short(page, left_out):
+def in_short(page, left_out, to_come):
     page.heading("In short")
     items = []
     for device in (cases.SOFTWARE, cases.GPU):
@@ -65,6 +71,8 @@ def in_short(page, left_out):
             f"The thesis' claim (its eight lobes above importance sampling, and as many dB as it reports) is reproduced in"
             f" {len(agreed)} of {len(page.thesis)} cases."
         )
+    if to_come:
+        items.append(f"**Not measured yet**: {to_come} cases; the same command goes on.")
     items += [f"**Not measured**: {title}: {reason}" for title, reason in left_out.items()]
     page.items(items)
 
@@ -75,7 +83,9 @@ def acceptance(page):
     page.heading("A third of the time of importance sampling")
     page.text(
         f"Goal: at equal or lower error than `{analysis.GOAL_RIVAL}`, `{cases.BASELINE}` takes at most a third of its GPU time on equal"
-        f" widths; on (0.05, 0.2), lobes with at most {analysis.MOST_GOAL_FETCHES} fetches do."
+        f" widths; on (0.05, 0.2), lobes with at most {analysis.MOST_GOAL_FETCHES} fetches do. It is judged by the whole frame's time, which has what the renderer takes for any frame in"
+        " it, whatever the method; the column after it is the ratio of what both take above the time of a sphere that reflects"
+        " nothing, drawn in the same rounds. All methods draw the same pixels."
     )
     rows = [
         [
@@ -85,11 +95,13 @@ def acceptance(page):
             decibels(row["psnr"]),
             decibels(row["rival_psnr"]),
             ratio(row["time"]),
+            ratio(row["time_without_fixed"]),
             "reached" if row["reached"] else "**missed**",
         ]
         for row in page.goals
     ]
-    head = ["renderer", "material", "method", "its dB", f"{analysis.GOAL_RIVAL} dB", "time ratio", "goal"]
+    head = ["renderer", "material", "method", "its dB", f"{analysis.GOAL_RIVAL} dB"]
+    head += ["whole frame's time ratio", "without the renderer's part", "goal"]
     page.table(head, rows, names=3)
     places = [row["place"] for row in page.goals]
     page.text(source_of([analysis.find(page.entries, place) for place in places]))
@@ -284,7 +296,7 @@ def methods(page):
 def everything(page):
     page.heading("All figures with the usual settings")
     head = ["method", "fetches", "probes", "table fetches", "PSNR, dB", "FLIP", "rel. RMSE"]
-    head += ["GPU ms", f"over {cases.BASELINE}", "quartiles"]
+    head += ["GPU ms", f"over {cases.BASELINE}", "quartiles", "without the renderer's part"]
     for place in analysis.places(page.entries):
         entry = analysis.find(page.entries, place)
         rows = [
@@ -299,6 +311,7 @@ def everything(page):
                 number(own["gpu_ms"], 3),
                 ratio(own["gpu_ms_ratio"]),
                 "–".join(f"{value:.2f}" for value in analysis.ratio_range(entry, method) or ()),
+                ratio(own["gpu_ms_ratio_without_fixed"]),
             ]
             for method, own in entry["methods"].items()
         ]

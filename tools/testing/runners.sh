@@ -100,6 +100,8 @@ run_commands() {
   judge commands
   run_logged report in_time "$PYTHON" "$ROOT/tests/commands/report_test.py"
   judge report
+  run_logged report-smoke in_time "$PYTHON" "$ROOT/tests/commands/report_smoke_test.py"
+  judge report-smoke
 }
 
 # The package, what is exported from a project that it was unpacked into, what exports leave out of the ready tables,
