@@ -63,6 +63,16 @@ run_runtime() {
   run_suites runtime tests/runtime in_time godot_headless
 }
 
+# check_class_reference PROJECT FOLDER: has the engine write the class reference of the addon in PROJECT to FOLDER, and
+# looks for what is not described. For native classes it completes the XML files that the library takes in.
+check_class_reference() {
+  mkdir -p "$2/doc_classes"
+  cp "$1"/addons/lobelight/doc_classes/*.xml "$2/doc_classes"
+  "$GODOT" --headless --path "$1" --doctool "$2" --gdscript-docs res://addons/lobelight || return
+  "$GODOT" --headless --path "$1" --doctool "$2" --gdextension-docs || return
+  "$PYTHON" "$ROOT/tests/editor/class_reference.py" "$2"
+}
+
 # The editor's side: suites in a running editor, the editor closed during a bake, and without the native library.
 run_editor() {
   local project=$RESULTS/editor-project
@@ -70,6 +80,8 @@ run_editor() {
   bash "$ROOT/tools/testing/editor_project.sh" "$project"
   run_logged editor "${editor[@]}" --editor-tests res://tests/editor/with_library
   judge editor --engine --junit "$project/report/results.xml"
+  run_logged editor-class-reference check_class_reference "$project" "$RESULTS/class-reference"
+  judge editor-class-reference --engine
   run_logged editor-closing "${editor[@]}" --quit-while-baking
   judge editor-closing --engine
   rm -rf "$project"/{report,addons/lobelight/{bin,lobelight.gdextension*},.godot/extension_list.cfg}

@@ -32,20 +32,39 @@ extends ShaderMaterial
 
 ## As [enum BaseMaterial3D.Transparency]. Compatibility has no alpha hash; there it blends.
 enum Transparency {
-	DISABLED,
-	ALPHA,
-	ALPHA_SCISSOR,
-	ALPHA_HASH,
-	ALPHA_DEPTH_PRE_PASS,
+	DISABLED,  ## Opaque.
+	ALPHA,  ## Blended by alpha, drawn from back to front.
+	ALPHA_SCISSOR,  ## Cut out where alpha is below a threshold.
+	ALPHA_HASH,  ## Cut out by a dither of alpha. Compatibility blends instead.
+	ALPHA_DEPTH_PRE_PASS,  ## Blended, with the opaque parts in the depth buffer first.
 }
 ## As [enum BaseMaterial3D.BlendMode].
-enum BlendMode { MIX, ADD, SUBTRACT, MULTIPLY, PREMULTIPLIED_ALPHA }
+enum BlendMode {
+	MIX,  ## By alpha.
+	ADD,  ## Added to what is behind.
+	SUBTRACT,  ## Subtracted from what is behind.
+	MULTIPLY,  ## Multiplied with what is behind.
+	PREMULTIPLIED_ALPHA,  ## By alpha, with colours that contain it already.
+}
 ## As [enum BaseMaterial3D.CullMode].
-enum CullMode { BACK, FRONT, DISABLED }
+enum CullMode {
+	BACK,  ## Back faces are not drawn.
+	FRONT,  ## Front faces are not drawn.
+	DISABLED,  ## Both sides are drawn.
+}
 ## As [enum BaseMaterial3D.TextureChannel].
-enum TextureChannel { RED, GREEN, BLUE, ALPHA, GRAYSCALE }
+enum TextureChannel {
+	RED,  ## Red.
+	GREEN,  ## Green.
+	BLUE,  ## Blue.
+	ALPHA,  ## Alpha.
+	GRAYSCALE,  ## The mean of red, green and blue.
+}
 ## As [enum BaseMaterial3D.EmissionOperator].
-enum EmissionOperator { ADD, MULTIPLY }
+enum EmissionOperator {
+	ADD,  ## The colour plus the texture.
+	MULTIPLY,  ## The colour times the texture.
+}
 
 const LightRegistry := preload("light_registry.gd")
 const MaterialConversion := preload("material_conversion.gd")

@@ -177,6 +177,10 @@ func test_the_report_names_what_the_scene_uses() -> void:
 	assert_str(report).contains("on 1 node")
 	assert_str(report).contains("Environments: 1")
 	assert_str(report).contains("To be looked at:")
+	var sphere: MeshInstance3D = root.get_child(0)
+	sphere.name = "Ball"
+	sphere.material_override.resource_name = ""
+	assert_str(SceneReport.describe(root)).contains("of Ball: 1 fetch")
 	assert_str(SceneReport.describe(null)).is_equal("No scene is open.")
 
 

@@ -54,7 +54,7 @@ static func _describe_material(material: LobeMaterial3D, nodes: Array) -> String
 	return (
 		"%s: %s of the environment and %d of tables a pixel, on %s"
 		% [
-			_name(material),
+			_name(material, nodes[0]),
 			Wording.count(fetches["environment"], "fetch", "fetches"),
 			fetches["table"],
 			Wording.count(nodes.size(), "node"),
@@ -72,9 +72,10 @@ static func _describe_environment(environment: LobeEnvironment3D, root: Node) ->
 	return "%s: %s, %s" % [root.get_path_to(environment), source.to_lower(), memory]
 
 
-static func _name(resource: Resource) -> String:
+# What a resource has no name for, users know by where it is.
+static func _name(resource: Resource, node: Node = null) -> String:
 	if not resource.resource_name.is_empty():
 		return resource.resource_name
-	if resource.resource_path.is_empty():
-		return "unnamed"
+	if resource.resource_path.is_empty() or resource.resource_path.contains("::"):
+		return "unnamed" if node == null else "of " + node.name
 	return resource.resource_path.get_file()
