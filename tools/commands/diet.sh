@@ -1,16 +1,20 @@
 #!/usr/bin/env bash
-# reports what an export takes along of the ready tables, and why (SCENE|PROJECT [--json FILE])
+# reports what an export takes along of the addon, and why (SCENE|PROJECT [--json FILE]; --acceptance)
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 usage() {
   cat <<USAGE
 usage: ./dev diet SCENE|PROJECT [--json FILE]
+       ./dev diet --acceptance [--instructions] [--out DIR] [--json FILE]
 
-SCENE          a .tscn or .scn with all that it depends on
-PROJECT        a folder with a project.godot and this addon: all its files
---json FILE    the same as numbers
+SCENE           a .tscn or .scn with all that it depends on
+PROJECT         a folder with a project.godot and this addon: all its files
+--json FILE     the same as numbers
+--acceptance    exports five scenes with all of the addon and with what they need of it, and compares their pictures
+--instructions  also counts what phones' GPUs execute a pixel, as ./dev mobile-cost does (fetches compilers once)
+--out DIR       where README.md and results.json of the acceptance go (docs/report/diet)
 
-Exports leave out sets of tables that nothing uses, and cut the others to the widths that materials can reach; the
+Exports leave out sets of tables that nothing uses, and of the others the tables that materials cannot reach; the
 preset's option "Lobelight > Cut Tables" turns that off. This says what they would do. Scenes and resources are looked
 through; numbers that scripts assign to roughness, anisotropy and the clear coat's count; what else scripts do with
 them is not known, and then all widths stay, unless the root of a scene says what its scripts reach, by the metadata
@@ -21,13 +25,18 @@ USAGE
 help_if_asked "$@"
 subject=""
 json=""
+acceptance=false
+options=()
 while (($# > 0)); do
   case $1 in
-    --json)
-      [[ -n ${2:-} ]] || die "diet: --json needs a value"
-      json=$(realpath -m -- "$2")
+    --json | --out)
+      [[ -n ${2:-} ]] || die "diet: $1 needs a value"
+      path=$(realpath -m -- "$2")
+      if [[ $1 == --json ]]; then json=$path; else options+=(--out "$path"); fi
       shift
       ;;
+    --acceptance) acceptance=true ;;
+    --instructions) options+=(--instructions) ;;
     -*) die "diet: there is no option '$1'; ./dev diet --help lists them" ;;
     *)
       [[ -z $subject ]] || die "diet: one scene or project at a time, not '$1' too"
@@ -36,9 +45,24 @@ while (($# > 0)); do
   esac
   shift
 done
+[[ -z $json || -d $(dirname -- "$json") ]] || die "diet: $json: its folder does not exist"
+
+if $acceptance; then
+  [[ -z $subject ]] || die "diet: --acceptance has its own scenes, '$subject' is one too many"
+  need_engine
+  need_python accuracy
+  need_display
+  if [[ " ${options[*]} " == *" --instructions "* ]]; then
+    need_mobile_compilers adreno
+    need_import
+  fi
+  [[ -z $json ]] || options+=(--json "$json")
+  exec "$PYTHON" "$ROOT/tools/diet/acceptance.py" --work "$ROOT/build/diet" "${options[@]}"
+fi
+
+((${#options[@]} == 0)) || die "diet: ${options[0]} goes with --acceptance"
 [[ -n $subject ]] || die "diet: which scene or project? ./dev diet SCENE|PROJECT"
 [[ -e $subject ]] || die "diet: $subject does not exist"
-[[ -z $json || -d $(dirname -- "$json") ]] || die "diet: $json: its folder does not exist"
 
 # The project that the scene, or the folder, is in.
 project=$subject

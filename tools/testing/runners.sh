@@ -116,11 +116,13 @@ run_commands() {
   judge report-smoke
 }
 
-# The package, what is exported from a project that it was unpacked into, what exports leave out of the ready tables,
-# and the demo's pack for Android.
+# What exports leave out, and that the pictures stay the same; the package, what is exported from a project that it was
+# unpacked into, and the demo's pack for Android.
 run_export() {
   need_import
   run_suites export-diet tests/diet in_time godot_headless
+  run_logged export-pictures in_time bash "$ROOT/tools/commands/diet.sh" --acceptance
+  judge export-pictures
   run_logged export-package in_time bash "$ROOT/tests/commands/package_test.sh"
   judge export-package
   run_logged export-android in_time bash "$ROOT/tools/commands/android.sh" --pack-only --out "$RESULTS/android"

@@ -137,17 +137,22 @@ func table_at(alpha: Vector2) -> LobeTable:
 	table.lobe_count = lobe_count
 	table.method = "interpolated"
 	table.seed = seed
-	if is_equal_approx(used.x, used.y):
-		table.views = Vector2i(views.x, 1)
-		table.image = _blend(_isotropic_shares(used.x), table.views, false)
-	else:
-		table.views = views
-		var shares := _pair_shares(maxf(used.x, used.y), minf(used.x, used.y))
-		table.image = _blend(shares, views, used.x < used.y)
+	table.views = Vector2i(views.x, 1) if is_equal_approx(used.x, used.y) else views
+	var is_exchanged := table.views == views and used.x < used.y
+	table.image = _blend(get_shares(alpha), table.views, is_exchanged)
 	# Otherwise random, as in from_baked().
 	table.resource_scene_unique_id = "table"
 	table.image.resource_scene_unique_id = "lobes"
 	return table
+
+
+## What [method table_at] mixes for widths: tables, counted as [member image] has them, and the
+## share of each. The widths must be positive and the set complete.
+func get_shares(alpha: Vector2) -> Dictionary[int, float]:
+	var used := alpha.clampf(widths[0], widths[-1])
+	if is_equal_approx(used.x, used.y):
+		return _isotropic_shares(used.x)
+	return _pair_shares(maxf(used.x, used.y), minf(used.x, used.y))
 
 
 ## As [method table_at], but one table for all who ask for the same widths while somebody holds it.

@@ -1,12 +1,15 @@
 @tool
 extends RefCounted
-## What an export takes along of the addon's ready tables, and why.
+## What an export takes along of the addon's ready tables and of its run time, and why.
 
+const CodeFiles := preload("code_files.gd")
+const EnvironmentFit := preload("environment_fit.gd")
+const FileBytes := preload("file_bytes.gd")
 const Reach := preload("reach.gd")
 const SetCut := preload("set_cut.gd")
+const SetReach := preload("set_reach.gd")
 
 const NAMED_USERS := 3
-const RUN_TIME := "res://addons/lobelight/runtime"
 
 
 ## What becomes of one set.
@@ -29,6 +32,8 @@ class Share:
 
 ## By the sets' paths.
 var shares: Dictionary[String, Share] = {}
+var code: CodeFiles
+var fit: EnvironmentFit
 var material_count := 0
 
 
@@ -37,6 +42,8 @@ static func of_files(files: PackedStringArray) -> RefCounted:
 	var diet := new()
 	var reach := Reach.of_files(files)
 	diet.material_count = reach.material_count
+	diet.code = CodeFiles.of_files(files, reach.features)
+	diet.fit = EnvironmentFit.of(reach.features.environments, reach.sets, reach.own_tables)
 	for name in DirAccess.get_files_at(Reach.TABLES):
 		if name.get_extension() == "res":
 			var path := Reach.TABLES + name
@@ -44,7 +51,7 @@ static func of_files(files: PackedStringArray) -> RefCounted:
 	return diet
 
 
-static func _share_of(path: String, reach: Reach.SetReach) -> Share:
+static func _share_of(path: String, reach: SetReach) -> Share:
 	var share := Share.new()
 	share.path = path
 	share.before = FileAccess.get_file_as_bytes(path).size()
@@ -59,35 +66,33 @@ static func _share_of(path: String, reach: Reach.SetReach) -> Share:
 		share.why = "all widths, for %s; %s" % [users, reach.whole_because]
 		return share
 	var whole: LobeTableSet = load(path)
-	var part := SetCut.cut(whole, reach.low, reach.high)
+	var cut := SetCut.of(whole, reach)
+	var ends := reach.get_range()
 	share.why = (
-		"%d of %d widths, for alpha %.4f to %.4f in %s"
-		% [part.widths.size(), whole.widths.size(), reach.low, reach.high, users]
+		"%d of %d tables, for alpha %.4f to %.4f in %s"
+		% [cut.table_count, whole.get_table_count(), ends.x, ends.y, users]
 	)
-	if part != whole:
-		share.bytes = _file_bytes(part)
+	if reach.isotropic_because:
+		share.why += "; all isotropic ones, because %s" % reach.isotropic_because
+	if cut.part != whole:
+		share.bytes = FileBytes.of(cut.part, "res")
 		# Where it could not be written, the whole set goes along.
 		share.after = share.before if share.bytes.is_empty() else share.bytes.size()
 	return share
 
 
-# As the engine saves it.
-static func _file_bytes(resource: Resource) -> PackedByteArray:
-	var file := OS.get_temp_dir().path_join("lobelight_%d.res" % OS.get_process_id())
-	var error := ResourceSaver.save(resource, file, ResourceSaver.FLAG_COMPRESS)
-	if error != OK:
-		push_error("%s: cannot be written (%s)." % [file, error_string(error)])
-		return PackedByteArray()
-	var bytes := FileAccess.get_file_as_bytes(file)
-	DirAccess.remove_absolute(file)
-	return bytes
-
-
-## One line for each set, and the sum.
+## One line for each set and for each file that is left out or empty, and the sum.
 func describe() -> PackedStringArray:
 	var lines: PackedStringArray = []
 	for share: Share in shares.values():
 		lines.append(share.describe())
+	for path in code.files:
+		var file := code.files[path]
+		if file.after < file.before and not file.why.begins_with("without"):
+			lines.append(
+				"%s: %d bytes, %d: %s" % [path.get_file(), file.before, file.after, file.why]
+			)
+	lines.append(fit.describe())
 	var report := to_dictionary()
 	lines.append(
 		(
@@ -98,40 +103,31 @@ func describe() -> PackedStringArray:
 	return lines
 
 
-## The same as numbers. The run time counts as its sources, which exports may compile.
+## The same as numbers, and all files. The run time counts as sources, which exports may compile.
 func to_dictionary() -> Dictionary:
 	var tables: Array[Dictionary] = []
-	var run_time := _size_below(RUN_TIME)
-	var before := run_time
-	var after := run_time
-	for share: Share in shares.values():
+	var before := code.get_size_before()
+	var after := code.get_size_after()
+	for path in shares:
+		var share := shares[path]
 		before += share.before
 		after += share.after
-		(
-			tables
-			. append(
-				{
-					"path": share.path,
-					"before": share.before,
-					"after": share.after,
-					"why": share.why,
-				}
-			)
-		)
+		tables.append(_entry(path, share.before, share.after, share.why))
+	var files: Array[Dictionary] = []
+	for path in code.files:
+		var file := code.files[path]
+		files.append(_entry(path, file.before, file.after, file.why))
 	return {
 		"materials": material_count,
 		"before": before,
 		"after": after,
-		"run_time": run_time,
+		"run_time": code.get_size_after(),
+		"environment_size": fit.size,
+		"environment_size_why": fit.why,
 		"tables": tables,
+		"files": files,
 	}
 
 
-static func _size_below(folder: String) -> int:
-	var size := 0
-	for name in DirAccess.get_files_at(folder):
-		if name.get_extension() in ["gd", "gdshader", "gdshaderinc"]:
-			size += FileAccess.get_file_as_bytes(folder.path_join(name)).size()
-	for name in DirAccess.get_directories_at(folder):
-		size += _size_below(folder.path_join(name))
-	return size
+static func _entry(path: String, before: int, after: int, why: String) -> Dictionary:
+	return {"path": path, "before": before, "after": after, "why": why}

@@ -3,13 +3,13 @@ extends SceneTree
 ## [--scene res://X.tscn] [--json FILE][/code]. For [code]./dev diet[/code].
 
 const Diet := preload("diet.gd")
-const Reach := preload("reach.gd")
+const ProjectFiles := preload("project_files.gd")
 
 
 func _initialize() -> void:
 	var scene := _argument("--scene")
 	var diet := Diet.of_files(
-		Reach.files_of_project() if scene.is_empty() else Reach.files_of_scene(scene)
+		ProjectFiles.of_project() if scene.is_empty() else ProjectFiles.of_scene(scene)
 	)
 	print("\n".join(diet.describe()))
 	quit(0 if _write(_argument("--json"), diet.to_dictionary()) else 1)

@@ -3,12 +3,14 @@ extends EditorExportPlugin
 ## Keeps out of exported projects what only the editor needs of this addon: the native library with
 ## its .gdextension, the editor's scripts, and the classes' icons. No filter has to be written.
 ## [br][br]
-## Of the ready tables it exports those that the project's materials can reach, prints what it did,
-## and keeps a report in the project's data folder. The preset's option "lobelight/cut_tables" turns
-## that off.
+## Of the ready tables and of the run time it exports what the project can reach, prints what it
+## did, and keeps a report in the project's data folder. The preset's option "lobelight/cut_tables"
+## turns that off. Environments of automatic size get the size that the sharpest lobe needs, unless
+## "lobelight/fit_environments" is off.
 
 const Diet := preload("diet.gd")
 const ExtensionList := preload("extension_list.gd")
+const ProjectFiles := preload("project_files.gd")
 const Reach := preload("reach.gd")
 const TableChoice := preload("../../runtime/table_choice.gd")
 
@@ -16,6 +18,7 @@ const ADDON := "res://addons/lobelight/"
 const EDITOR_ONLY: PackedStringArray = ["editor/", "bin/", "doc_classes/", "icons/"]
 const TABLE_CHOICE := "res://addons/lobelight/runtime/table_choice.gd"
 const CUT_TABLES := "lobelight/cut_tables"
+const FIT_ENVIRONMENTS := "lobelight/fit_environments"
 const REPORT := "res://.godot/lobelight_export.json"
 
 var _extension_list := ExtensionList.new()
@@ -31,7 +34,10 @@ func _get_name() -> String:
 
 
 func _get_export_options(_platform: EditorExportPlatform) -> Array[Dictionary]:
-	return [{"option": {"name": CUT_TABLES, "type": TYPE_BOOL}, "default_value": true}]
+	var options: Array[Dictionary] = []
+	for name: String in [CUT_TABLES, FIT_ENVIRONMENTS]:
+		options.append({"option": {"name": name, "type": TYPE_BOOL}, "default_value": true})
+	return options
 
 
 func _export_begin(
@@ -41,10 +47,15 @@ func _export_begin(
 	_done.clear()
 	_diet = null
 	if get_option(CUT_TABLES) != false:
-		_diet = Diet.of_files(Reach.files_of_project(get_export_preset().get_exclude_filter()))
+		_diet = Diet.of_files(ProjectFiles.of_preset(get_export_preset()))
 
 
-func _export_file(path: String, _type: String, _features: PackedStringArray) -> void:
+func _export_file(path: String, type: String, _features: PackedStringArray) -> void:
+	if type == "PackedScene" and _diet != null and get_option(FIT_ENVIRONMENTS) != false:
+		var scene := _diet.fit.make_scene(path)
+		if not scene.is_empty():
+			add_file("res://.godot/exported/lobelight/%s.scn" % path.md5_text(), scene, true)
+			return
 	if not path.begins_with(ADDON) or path == _project_icon():
 		return
 	var name := path.trim_prefix(ADDON)
@@ -59,6 +70,17 @@ func _export_file(path: String, _type: String, _features: PackedStringArray) -> 
 		# It loads the set by its path, which an export of chosen scenes does not know of.
 		_export_table(TableChoice.DEFAULT_SET, false)
 	elif path.begins_with(Reach.TABLES) and _export_table(path, true):
+		skip()
+	if _diet != null and _diet.code.files.has(path):
+		_export_code(path, _diet.code.files[path])
+
+
+# A file of the run time that is left out or replaced; the others are left to the engine.
+func _export_code(path: String, file: Diet.CodeFiles.CodeFile) -> void:
+	if file.after == 0:
+		skip()
+	elif not file.bytes.is_empty():
+		add_file(path, file.bytes, false)
 		skip()
 
 

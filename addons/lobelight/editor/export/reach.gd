@@ -8,40 +8,24 @@ extends RefCounted
 ## root, as [code]{"roughness": [0.2, 0.5], "anisotropy": [0.0, 0.9]}[/code], stands in for what is
 ## not known of them.
 
+const Features := preload("features.gd")
+const ProjectFiles := preload("project_files.gd")
+const SetReach := preload("set_reach.gd")
 const TableChoice := preload("../../runtime/table_choice.gd")
 const Widths := preload("../../runtime/widths.gd")
 
 const TABLES := "res://addons/lobelight/tables/"
 const DECLARATION := "metadata/lobelight_reach"
-const SCENES: PackedStringArray = ["tscn", "scn", "glb", "gltf", "fbx", "blend", "dae"]
-const RESOURCES: PackedStringArray = [
-	"tres", "res", "material", "mesh", "meshlib", "multimesh", "anim"
-]
-const SCRIPTS: PackedStringArray = ["gd", "cs"]
 const WIDTHS := "roughness|anisotropy|clearcoat_roughness|clearcoat"
 const TEXTURES := "roughness_texture|orm_texture|anisotropy_flowmap"
-
-
-## What is known of one set.
-class SetReach:
-	extends RefCounted
-	## The least and the largest width.
-	var low := INF
-	var high := 0.0
-	## Why all widths are kept, or empty.
-	var whole_because := ""
-	## Who needs the set: files, with what they ask of it.
-	var needed_by: PackedStringArray = []
-
-	func include(width: float) -> void:
-		low = minf(low, width)
-		high = maxf(high, width)
-
 
 ## By the path of the set.
 var sets: Dictionary[String, SetReach] = {}
 ## How many materials of the addon were found.
 var material_count := 0
+var features := Features.new()
+## Tables of materials that are of no set: [file, table].
+var own_tables: Array[Array] = []
 
 # Each is [file, material].
 var _materials: Array[Array] = []
@@ -87,62 +71,13 @@ static func of_files(files: PackedStringArray) -> RefCounted:
 	return reach
 
 
-## All files of the project that it would load or run, without folders that the engine ignores and
-## without those that match [param exclude], a preset's filter.
-static func files_of_project(exclude: String = "") -> PackedStringArray:
-	var filters: PackedStringArray = []
-	for filter in exclude.split(",", false):
-		filters.append(filter.strip_edges())
-	var files: PackedStringArray = []
-	_collect("res://", filters, files)
-	return files
-
-
-## A scene with all that it depends on.
-static func files_of_scene(scene: String) -> PackedStringArray:
-	var files: PackedStringArray = [scene]
-	var next := 0
-	while next < files.size():
-		for dependency in ResourceLoader.get_dependencies(files[next]):
-			# uid::type::path, or a path alone.
-			var path := dependency.get_slice("::", 2) if "::" in dependency else dependency
-			if path and path not in files:
-				files.append(path)
-		next += 1
-	return files
-
-
-static func _collect(folder: String, filters: PackedStringArray, files: PackedStringArray) -> void:
-	if FileAccess.file_exists(folder.path_join(".gdignore")):
-		return
-	for name in DirAccess.get_files_at(folder):
-		var path := folder.path_join(name)
-		if _is_read(path) and not _is_excluded(path.trim_prefix("res://"), filters):
-			files.append(path)
-	for name in DirAccess.get_directories_at(folder):
-		if not name.begins_with("."):
-			_collect(folder.path_join(name), filters, files)
-
-
-static func _is_read(path: String) -> bool:
-	var ending := path.get_extension()
-	return ending in SCENES or ending in RESOURCES or ending in SCRIPTS
-
-
-static func _is_excluded(path: String, filters: PackedStringArray) -> bool:
-	for filter in filters:
-		if path.matchn(filter):
-			return true
-	return false
-
-
 func _read(file: String) -> void:
 	var ending := file.get_extension()
-	if ending in SCRIPTS:
+	if ending in ProjectFiles.SCRIPTS:
 		_read_script(file, FileAccess.get_file_as_string(file))
-	elif ending in SCENES:
+	elif ending in ProjectFiles.SCENES:
 		_look_at_scene(file, ResourceLoader.load(file) as PackedScene)
-	elif ending in RESOURCES:
+	elif ending in ProjectFiles.RESOURCES:
 		_look_at(file, ResourceLoader.load(file))
 
 
@@ -152,12 +87,15 @@ func _look_at_scene(file: String, scene: PackedScene) -> void:
 		return
 	var state := scene.get_state()
 	for node in state.get_node_count():
+		var properties := {}
 		for property in state.get_node_property_count(node):
 			var value: Variant = state.get_node_property_value(node, property)
+			properties[String(state.get_node_property_name(node, property))] = value
 			if state.get_node_property_name(node, property) == DECLARATION and value is Dictionary:
 				_declare(value)
 			else:
 				_look_at(file, value)
+		features.look_at_node(file, properties, state.get_node_type(node).is_empty())
 
 
 func _declare(ranges: Dictionary) -> void:
@@ -184,6 +122,7 @@ func _look_at(file: String, value: Variant) -> void:
 			_read_script(file, (resource as Script).source_code)
 	elif resource is LobeMaterial3D:
 		_materials.append([file, resource])
+		features.look_at_material(file, resource)
 		_look_at(file, (resource as LobeMaterial3D).next_pass)
 	elif resource is LobeTableSet:
 		# A script may give it to a material.
@@ -199,6 +138,7 @@ func _look_at(file: String, value: Variant) -> void:
 func _look_at_animation(file: String, animation: Animation) -> void:
 	for track in animation.get_track_count():
 		var path := String(animation.track_get_path(track))
+		features.read_line(file, path)
 		if _mention.search(path) != null:
 			_unknown.append("%s animates %s" % [file, path])
 
@@ -208,6 +148,9 @@ func _read_script(file: String, text: String) -> void:
 		var code := line.strip_edges()
 		if code.begins_with("#") or code.begins_with("//"):
 			continue
+		features.read_line(file, code)
+		if _dynamic.search(code) != null or _other_widths.search(code) != null:
+			features.add_all(file)
 		var assigned := _assignment.search(code)
 		if assigned != null:
 			_add_number(assigned.get_string(1), assigned.get_string(2).to_float())
@@ -241,12 +184,11 @@ func _conclude() -> void:
 		var named := _get_set(path)
 		# The script may ask it for any table.
 		named.whole_because = "%s names it" % _named_sets[path]
-		if _named_sets[path] not in named.needed_by:
-			named.needed_by.append(_named_sets[path])
-	if not _declared and not _unknown.is_empty():
-		for reach: SetReach in sets.values():
-			if reach.whole_because.is_empty():
-				reach.whole_because = _unknown[0]
+		named.add_user(_named_sets[path])
+	for reach: SetReach in sets.values():
+		reach.is_filled = _declared
+		if not _declared and not _unknown.is_empty() and reach.whole_because.is_empty():
+			reach.whole_because = _unknown[0]
 
 
 func _get_set(path: String) -> SetReach:
@@ -258,25 +200,28 @@ func _get_set(path: String) -> SetReach:
 func _include(file: String, material: LobeMaterial3D) -> void:
 	var coats := _all_of("clearcoat", material.clearcoat)
 	var has_coat: bool = coats.any(func(coat: float) -> bool: return coat > 0.0)
-	if material.table != null and not has_coat:
-		return
+	if material.table != null:
+		own_tables.append([file, material.table])
+		if not has_coat:
+			return
 	var path := TableChoice.DEFAULT_SET
 	if material.table_set != null:
 		path = material.table_set.resource_path
 	var reach := _get_set(path)
-	if file not in reach.needed_by:
-		reach.needed_by.append(file)
+	reach.add_user(file)
 	if material.table == null:
+		var anisotropies := _all_of("anisotropy", material.anisotropy)
 		if TableChoice.varies(material):
-			reach.whole_because = "%s has a texture of widths" % file
+			if anisotropies.max() == 0.0 and anisotropies.min() == 0.0:
+				reach.isotropic_because = "%s has a texture of widths" % file
+			else:
+				reach.whole_because = "%s has a texture of widths" % file
 		for roughness in _all_of("roughness", material.roughness):
-			for anisotropy in _all_of("anisotropy", material.anisotropy):
-				var widths := Widths.from_roughness(roughness, anisotropy)
-				reach.include(widths.x)
-				reach.include(widths.y)
+			for anisotropy in anisotropies:
+				reach.add_surface(Widths.from_roughness(roughness, anisotropy))
 	if has_coat:
 		for roughness in _all_of("clearcoat_roughness", material.clearcoat_roughness):
-			reach.include(Widths.from_coat_roughness(roughness))
+			reach.add_surface(Vector2.ONE * Widths.from_coat_roughness(roughness))
 
 
 # A material's own value and those that scripts may give it.

@@ -1,44 +1,100 @@
 @tool
 extends RefCounted
-## Sets of tables without the widths that nothing reaches.
+## Sets of tables without what nothing reaches: widths beyond all that is drawn are left out, and of
+## the tables between, those that nothing asks for are black, which compresses to nothing.
+
+const SetReach := preload("set_reach.gd")
 
 # Materials round their widths by less (LobeTableSet.shared_table_at).
 const ROUNDING := 1.01
 
+## The smaller set; the whole one if nothing can be left out.
+var part: LobeTableSet
+## How many tables of the whole set are left.
+var table_count := 0
 
-## The part of a set that gives, for all widths from [param low] to [param high], the tables that
-## the whole set gives; the set itself if that is all of it.
-static func cut(tables: LobeTableSet, low: float, high: float) -> LobeTableSet:
+
+## The part of a set that gives, for what is reached, the tables that the whole set gives.
+static func of(tables: LobeTableSet, reach: SetReach) -> RefCounted:
+	var cut := new()
+	cut.part = tables
+	var needed := cut._find_needed(tables, reach)
+	cut.table_count = needed.size()
+	if needed.size() < tables.get_table_count():
+		cut.part = cut._make(tables, _find_widths(tables, reach), needed)
+	return cut
+
+
+# The first and the last of the widths that are kept.
+static func _find_widths(tables: LobeTableSet, reach: SetReach) -> Vector2i:
 	var last := tables.widths.size() - 1
+	if reach.isotropic_because:
+		return Vector2i(0, last)
+	var ends := reach.get_range()
 	# One width more on each side: rows of tables between two pairs of widths begin half a width
 	# before them.
-	var first := clampi(tables.widths.bsearch(low / ROUNDING, false) - 2, 0, last - 1)
-	var end := clampi(tables.widths.bsearch(high * ROUNDING, true) + 1, first + 1, last)
-	if first == 0 and end == last:
-		return tables
-	var images: Array[Image] = []
-	for wide in range(first, end + 1):
-		for narrow in range(first, wide + 1):
-			images.append(tables.get_pair_image(wide, narrow))
-	for width in range(first, end + 1):
-		images.append(tables.get_isotropic_image(width))
-	var part := LobeTableSet.new()
-	part.brdf = tables.brdf
-	part.lobe_count = tables.lobe_count
-	part.views = tables.views
-	part.seed = tables.seed
-	part.widths = tables.widths.slice(first, end + 1)
-	part.image = _stack(images)
-	# Otherwise random: equal exports are to have equal bytes.
-	part.resource_scene_unique_id = "set"
-	part.image.resource_scene_unique_id = "lobes"
-	return part
+	var first := clampi(tables.widths.bsearch(ends.x / ROUNDING, false) - 2, 0, last - 1)
+	return Vector2i(
+		first, clampi(tables.widths.bsearch(ends.y * ROUNDING, true) + 1, first + 1, last)
+	)
 
 
-static func _stack(images: Array[Image]) -> Image:
+# The numbers of the tables that are mixed for what is reached.
+static func _find_needed(tables: LobeTableSet, reach: SetReach) -> Dictionary[int, bool]:
+	var needed: Dictionary[int, bool] = {}
+	if reach.isotropic_because:
+		for width in tables.widths.size():
+			needed[_isotropic(tables, width)] = true
+	if reach.is_filled:
+		var ends := _find_widths(tables, reach)
+		for width in range(ends.x, ends.y + 1):
+			needed[_isotropic(tables, width)] = true
+			if not reach.is_isotropic():
+				for narrow in range(ends.x, width + 1):
+					needed[_pair(width, narrow)] = true
+	for surface in reach.surfaces:
+		for wide: float in [1.0 / ROUNDING, 1.0, ROUNDING]:
+			for narrow: float in [1.0 / ROUNDING, 1.0, ROUNDING]:
+				# Rounding does not take equal widths apart.
+				if wide == narrow or not is_equal_approx(surface.x, surface.y):
+					var shares := tables.get_shares(surface * Vector2(wide, narrow))
+					for table: int in shares:
+						needed[table] = true
+	return needed
+
+
+static func _pair(wide: int, narrow: int) -> int:
+	@warning_ignore("integer_division")
+	return wide * (wide + 1) / 2 + narrow
+
+
+static func _isotropic(tables: LobeTableSet, width: int) -> int:
+	return _pair(tables.widths.size(), 0) + width
+
+
+func _make(tables: LobeTableSet, ends: Vector2i, needed: Dictionary[int, bool]) -> LobeTableSet:
+	var numbers: PackedInt32Array = []
+	for wide in range(ends.x, ends.y + 1):
+		for narrow in range(ends.x, wide + 1):
+			numbers.append(_pair(wide, narrow))
+	for width in range(ends.x, ends.y + 1):
+		numbers.append(_isotropic(tables, width))
 	var bytes := PackedByteArray()
-	var height := 0
-	for image in images:
-		bytes.append_array(image.get_data())
-		height += image.get_height()
-	return Image.create_from_data(images[0].get_width(), height, false, Image.FORMAT_RGBAH, bytes)
+	for number in numbers:
+		var data := tables.get_table_data(number)
+		if not needed.has(number):
+			data.fill(0)
+		bytes.append_array(data)
+	var cut := LobeTableSet.new()
+	cut.brdf = tables.brdf
+	cut.lobe_count = tables.lobe_count
+	cut.views = tables.views
+	cut.seed = tables.seed
+	cut.widths = tables.widths.slice(ends.x, ends.y + 1)
+	@warning_ignore("integer_division")
+	var height := bytes.size() / (8 * tables.views.x)
+	cut.image = Image.create_from_data(tables.views.x, height, false, Image.FORMAT_RGBAH, bytes)
+	# Otherwise random: equal exports are to have equal bytes.
+	cut.resource_scene_unique_id = "set"
+	cut.image.resource_scene_unique_id = "lobes"
+	return cut

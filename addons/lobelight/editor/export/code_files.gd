@@ -1,0 +1,166 @@
+@tool
+extends RefCounted
+## Which files of the run time an export needs, and how short they can be.
+##
+## A script or shader that nothing names, neither the project's files nor a file of the run time
+## that is needed, stays out. Shaders of features that nothing reaches (features.gd) have to be
+## there, because scripts load them, but go along empty. The others lose their comments; scripts
+## lose theirs by the engine.
+
+const Features := preload("features.gd")
+
+const ADDON := "res://addons/lobelight/"
+const RUN_TIME := ADDON + "runtime/"
+const SHADERS := RUN_TIME + "shaders/"
+const TABLE_SET := RUN_TIME + "lobe_table_set.gd"
+const CODE: PackedStringArray = ["gd", "gdshader", "gdshaderinc"]
+const EMPTY: Dictionary[String, String] = {
+	"gdshader": "shader_type canvas_item;\n",
+	"gdshaderinc": "\n",
+}
+# What names others without being resources.
+const TEXTS: PackedStringArray = ["gd", "cs", "gdshader", "gdshaderinc"]
+
+
+## What becomes of a file.
+class CodeFile:
+	extends RefCounted
+	## Bytes of the source, which exports may compile.
+	var before := 0
+	var after := 0
+	var why := ""
+	## What is exported in its place, where that is not the file itself.
+	var bytes := PackedByteArray()
+
+
+## By the files' paths.
+var files: Dictionary[String, CodeFile] = {}
+
+var _features: Features
+var _classes: Dictionary[String, String] = {}
+# Who needs a file.
+var _needed_by: Dictionary[String, String] = {}
+var _named_path := RegEx.create_from_string('"([\\w./:]+\\.(gd|gdshader|gdshaderinc|res))"')
+var _named_uid := RegEx.create_from_string("uid://\\w+")
+var _word := RegEx.create_from_string("\\b[A-Z]\\w+\\b")
+
+
+## What the files of a project need.
+static func of_files(project_files: PackedStringArray, features: Features) -> RefCounted:
+	var code := new()
+	code._features = features
+	code._list(RUN_TIME)
+	for entry: Dictionary in ProjectSettings.get_global_class_list():
+		var path: String = entry["path"]
+		if path.begins_with(RUN_TIME):
+			code._classes[String(entry["class"])] = path
+	for file in project_files:
+		if not file.begins_with(ADDON):
+			code._look_at(file)
+	for path: String in code.files:
+		code._decide(path)
+	return code
+
+
+func get_size_before() -> int:
+	return files.values().reduce(func(sum: int, file: CodeFile) -> int: return sum + file.before, 0)
+
+
+func get_size_after() -> int:
+	return files.values().reduce(func(sum: int, file: CodeFile) -> int: return sum + file.after, 0)
+
+
+## Shader code without comments, indents and blank lines.
+static func strip(code: String) -> String:
+	if "/*" in code:
+		return code
+	var kept := ""
+	for line in code.split("\n"):
+		var text := line.get_slice("//", 0).strip_edges()
+		if text:
+			kept += text + "\n"
+	return kept
+
+
+func _list(folder: String) -> void:
+	for name in DirAccess.get_files_at(folder):
+		if name.get_extension() in CODE:
+			var file := CodeFile.new()
+			file.before = FileAccess.get_file_as_bytes(folder + name).size()
+			files[folder + name] = file
+	for name in DirAccess.get_directories_at(folder):
+		_list(folder + name + "/")
+
+
+func _look_at(file: String) -> void:
+	if file.get_extension() in TEXTS:
+		_read(file, FileAccess.get_file_as_string(file))
+		return
+	for dependency in ResourceLoader.get_dependencies(file):
+		_need(dependency.get_slice("::", 2) if "::" in dependency else dependency, file)
+
+
+func _read(file: String, text: String) -> void:
+	var named := false
+	for found in _named_path.search_all(text):
+		var path := found.get_string(1)
+		if not path.begins_with("res://"):
+			path = file.get_base_dir().path_join(path).simplify_path()
+		named = _need(path, file) or named
+	for found in _named_uid.search_all(text):
+		var id := ResourceUID.text_to_id(found.get_string())
+		if id != ResourceUID.INVALID_ID and ResourceUID.has_id(id):
+			named = _need(ResourceUID.get_id_path(id), file) or named
+	for found in _word.search_all(text):
+		if _classes.has(found.get_string()):
+			named = _need(_classes[found.get_string()], file) or named
+	# It may put a path together.
+	if not named and "addons/lobelight" in text:
+		for path in files:
+			_need(path, file)
+
+
+# Whether the path is the addon's. Files that are needed name others.
+func _need(path: String, by: String) -> bool:
+	if not path.begins_with(ADDON):
+		return false
+	if path.get_extension() == "res":
+		path = TABLE_SET
+	if not files.has(path) or _needed_by.has(path):
+		return files.has(path)
+	_needed_by[path] = by
+	if _is_empty(path):
+		return true
+	var code: PackedStringArray = []
+	for line in FileAccess.get_file_as_string(path).split("\n"):
+		if not line.strip_edges().begins_with("#") or "#include" in line:
+			code.append(line)
+	_read(path, "\n".join(code))
+	return true
+
+
+# A file of a feature that nothing reaches, unless the project's own shaders name it.
+func _is_empty(path: String) -> bool:
+	var shader := path.trim_prefix(SHADERS)
+	if not Features.SHADERS.has(shader) or _features.reached.has(shader):
+		return false
+	return _needed_by[path].begins_with(RUN_TIME)
+
+
+func _decide(path: String) -> void:
+	var file := files[path]
+	var shader := path.trim_prefix(SHADERS)
+	file.after = file.before
+	if not _needed_by.has(path):
+		file.after = 0
+		file.why = "nothing names it"
+	elif _is_empty(path):
+		file.bytes = EMPTY[path.get_extension()].to_utf8_buffer()
+		file.why = "empty, nothing reaches %s" % Features.SHADERS[shader]
+	elif path.begins_with(SHADERS):
+		file.bytes = strip(FileAccess.get_file_as_string(path)).to_utf8_buffer()
+		file.why = "without comments, for %s" % _features.reached.get(shader, _needed_by[path])
+	else:
+		file.why = "for %s" % _needed_by[path]
+	if not file.bytes.is_empty():
+		file.after = file.bytes.size()

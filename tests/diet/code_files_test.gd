@@ -1,0 +1,137 @@
+extends GdUnitTestSuite
+## Which scripts and shaders of the run time scenes need.
+
+const CodeFiles := preload("res://addons/lobelight/editor/export/code_files.gd")
+const Diet := preload("res://addons/lobelight/editor/export/diet.gd")
+const ProjectFiles := preload("res://addons/lobelight/editor/export/project_files.gd")
+const SCENES := "res://tests/diet/scenes/"
+const RUN_TIME := "res://addons/lobelight/runtime/"
+const SHADERS := RUN_TIME + "shaders/"
+const FEATURES: PackedStringArray = [
+	"clear_coat.gdshaderinc",
+	"diffuse.gdshaderinc",
+	"pyramid_reduce.gdshader",
+	"pyramid_views.gdshader",
+]
+
+## A scene, and which of FEATURES it needs.
+const NEEDS := [
+	["isotropic", []],
+	["anisotropic", [3]],
+	["everything", [0, 1, 2, 3]],
+]
+
+## A line of a script, and which of FEATURES it may ask for.
+const ASKING := [
+	["position = Vector3.ZERO", []],
+	["material.clearcoat_roughness = 0.3", [0]],
+	["material.metallic = 0.0", [1]],
+	["$Light.filter = 1", [2]],
+	["$Light.panorama = null", [3]],
+	["add_child(LobeEnvironment3D.new())", [3]],
+	["material.set(property, 0.1)", [0, 1, 2, 3]],
+]
+
+
+func _code(scene: String) -> CodeFiles:
+	return Diet.of_files(ProjectFiles.of_scene(SCENES + scene + ".tscn")).code
+
+
+func test_shaders_of_features_that_nothing_reaches_are_empty(
+	scene: String, needed: Array, _test_parameters := NEEDS
+) -> void:
+	_expect_features(ProjectFiles.of_scene(SCENES + scene + ".tscn"), needed)
+
+
+func test_scripts_keep_the_shaders_that_they_may_ask_for(
+	line: String, needed: Array, _test_parameters := ASKING
+) -> void:
+	var file := "user://diet_feature.gd"
+	_write(file, "extends Node\n\n\nfunc _ready() -> void:\n\t%s\n" % line)
+	_expect_features(PackedStringArray([SCENES + "isotropic.tscn", file]), needed)
+	DirAccess.remove_absolute(file)
+
+
+func _expect_features(files: PackedStringArray, needed: Array) -> void:
+	var code: CodeFiles = Diet.of_files(files).code
+	for feature in FEATURES.size():
+		var file := code.files[SHADERS + FEATURES[feature]]
+		assert_bool(file.bytes.size() < 30).is_equal(feature not in needed)
+		# A script loads it.
+		assert_int(file.after).is_greater(0)
+
+
+func test_shaders_lose_their_comments_and_nothing_else() -> void:
+	var code: CodeFiles = _code("everything")
+	var shaders := 0
+	for path in code.files:
+		if not path.begins_with(SHADERS):
+			continue
+		shaders += 1
+		var text := code.files[path].bytes.get_string_from_utf8()
+		assert_bool("//" in text).is_false()
+		assert_str(_words_of(text)).is_equal(_words_of(FileAccess.get_file_as_string(path)))
+	assert_int(shaders).is_greater(10)
+
+
+# What a compiler sees: no comments, one space between words.
+func _words_of(code: String) -> String:
+	var comment := RegEx.create_from_string("//[^\n]*")
+	return (
+		RegEx.create_from_string("\\s+").sub(comment.sub(code, "", true), " ", true).strip_edges()
+	)
+
+
+func test_of_a_project_without_the_addon_nothing_goes_along() -> void:
+	assert_int(_code("empty").get_size_after()).is_equal(0)
+
+
+func test_without_an_environment_its_scripts_stay_out() -> void:
+	var code: CodeFiles = _code("worn")
+	assert_int(code.files[RUN_TIME + "lobe_material_3d.gd"].after).is_greater(10000)
+	assert_int(code.files[RUN_TIME + "lobe_environment_3d.gd"].after).is_equal(0)
+	assert_int(code.files[RUN_TIME + "six_views.gd"].after).is_equal(0)
+
+
+# Whatever a script of the run time that goes along loads goes along.
+func test_what_is_loaded_goes_along(
+	scene: String, _needed: Array, _test_parameters := NEEDS
+) -> void:
+	var code: CodeFiles = _code(scene)
+	var loaded := RegEx.create_from_string('load\\("([^"]+)"\\)|^extends "([^"]+)"')
+	var count := 0
+	for path in code.files:
+		if code.files[path].after == 0 or path.get_extension() != "gd":
+			continue
+		for found in loaded.search_all(FileAccess.get_file_as_string(path)):
+			var name := found.get_string(1) + found.get_string(2)
+			var target := path.get_base_dir().path_join(name).simplify_path()
+			assert_bool(code.files.has(target) and code.files[target].after > 0).is_true()
+			count += 1
+	assert_int(count).is_greater(30)
+
+
+func test_a_script_that_puts_paths_together_keeps_all_files() -> void:
+	var file := "user://diet_path.gd"
+	_write(file, 'extends Node\n\nvar folder := "res://addons/lobelight/runtime"\n')
+	var code: CodeFiles = Diet.of_files(PackedStringArray([file])).code
+	DirAccess.remove_absolute(file)
+	for path in code.files:
+		assert_int(code.files[path].after).is_greater(0)
+
+
+func test_a_script_may_name_files_by_their_uids() -> void:
+	var file := "user://diet_uid.gd"
+	var id := ResourceLoader.get_resource_uid(RUN_TIME + "lobe_environment_3d.gd")
+	var uid := ResourceUID.id_to_text(id)
+	_write(file, 'extends Node\n\nconst A := preload("%s")\nconst B := "uid://none"\n' % uid)
+	var code: CodeFiles = Diet.of_files(PackedStringArray([file])).code
+	DirAccess.remove_absolute(file)
+	assert_int(code.files[RUN_TIME + "lobe_environment_3d.gd"].after).is_greater(0)
+	assert_int(code.files[RUN_TIME + "lobe_material_3d.gd"].after).is_equal(0)
+
+
+func _write(path: String, text: String) -> void:
+	var file := FileAccess.open(path, FileAccess.WRITE)
+	file.store_string(text)
+	file.close()

@@ -1,0 +1,330 @@
+#!/usr/bin/env python3
+"""What exports leave out of five projects, and that their pictures stay the same: for `./dev diet --acceptance`.
+
+acceptance.py --work DIR [--out DIR] [--instructions] [--json FILE]
+
+A project with the addon and five scenes is exported with all of the addon's run time, and once for each scene with the cut
+and that scene alone. The packs draw the scenes. Bytes are those that the packs hold below addons/lobelight. One line a check;
+ends with 1 if one fails.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+from PIL import Image
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools/android"))
+from pack_files import ADDON, read_files  # noqa: E402
+
+import acceptance_page  # noqa: E402
+import instructions  # noqa: E402
+
+# The scenes, as the report names them.
+SCENES = {
+    "empty": "nothing of Lobelight",
+    "isotropic": "one isotropic material, a static panorama",
+    "anisotropic": "one anisotropic material, the scene's sky",
+    "everything": "textures, clear coat, emission, capture",
+    "by_script": "widths set by a script, the scene's sky",
+}
+# The preset that cuts nothing.
+WHOLE = "whole"
+# The preset that exports the isotropic scene alone, by what it depends on.
+CHOSEN = "chosen"
+UNUSED = "tests/data/unused.exr"
+LEAST_PSNR = 45.0
+# Of the isotropic scene.
+LEAST_SHARE_GONE = 0.8
+SIDE = 160
+COMPLAINT = re.compile(r"(^|\s)(SCRIPT |USER )?(ERROR|WARNING)(:|\s)|handle_crash|leaked at exit", re.MULTILINE)
+# Uniforms of features, by what their names hold.
+FEATURES = {
+    "textures of its own": ("albedo_texture", "orm", "metallic_texture", "roughness_texture", "ao_", "normal", "flowmap"),
+    "a clear coat": ("coat",),
+    "emission": ("emitted", "emission"),
+    "diffuse light": ("dielectric", "metallic", "specular_amount"),
+    "anisotropy": ("anisotropy",),
+    "widths per pixel": ("lobelight_widths",),
+}
+PLAIN = ("isotropic", "anisotropic", "by_script")
+PROJECT = """config_version=5
+
+[application]
+
+config/name="Diet"
+run/main_scene="res://tests/diet/scenes/empty.tscn"
+config/features=PackedStringArray("4.6", "Mobile")
+
+[autoload]
+
+Picture="*res://picture.gd"
+
+[display]
+
+window/size/viewport_width={side}
+window/size/viewport_height={side}
+
+[editor_plugins]
+
+enabled=PackedStringArray("res://addons/lobelight/plugin.cfg")
+
+[rendering]
+
+renderer/rendering_method="mobile"
+"""
+PRESET = """[preset.{number}]
+
+name="{name}"
+platform="Linux"
+runnable=false
+{filter}
+exclude_filter="{exclude}"
+export_path=""
+script_export_mode=2
+
+[preset.{number}.options]
+
+binary_format/architecture="x86_64"
+lobelight/cut_tables={cut}
+"""
+
+
+ALL_FILES = 'export_filter="all_resources"\ninclude_filter=""'
+CHOSEN_FILES = 'export_filter="scenes"\nexport_files=PackedStringArray("res://tests/diet/scenes/{scene}.tscn")\n'
+CHOSEN_FILES += f'include_filter="{ADDON}/runtime/*"'
+
+
+class AcceptanceError(Exception):
+    """Says in one sentence what went wrong."""
+
+
+def run_engine(*arguments, drawing=False):
+    """The engine's output; an error or a warning in it ends the command."""
+    command = ["bash", str(ROOT / "tools/lib/with_display.sh")] if drawing else []
+    command += [os.environ["GODOT"], *map(str, arguments)]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    text = done.stdout.decode(errors="replace")
+    found = COMPLAINT.search(text)
+    if done.returncode or found:
+        line = text[found.start() :].strip().splitlines()[0] if found else f"status {done.returncode}"
+        (ROOT / "build").mkdir(exist_ok=True)
+        (ROOT / "build/diet.log").write_text(text, encoding="utf-8")
+        raise AcceptanceError(f"the engine with {' '.join(map(str, arguments[:6]))}: {line} (all of it: build/diet.log)")
+    return text
+
+
+def make_project(project):
+    """A project with the addon, without its native library, the scenes, and two presets for each of them."""
+    shutil.rmtree(project, ignore_errors=True)
+    scenes = project / "tests/diet/scenes"
+    scenes.mkdir(parents=True)
+    left_out = shutil.ignore_patterns("bin", "*.gdextension*")
+    shutil.copytree(ROOT / ADDON, project / ADDON, ignore=left_out)
+    for file in sorted((ROOT / "tests/diet/scenes").iterdir()):
+        if file.name.split(".")[0] in SCENES:
+            shutil.copy(file, scenes)
+    (project / "tests/data").mkdir()
+    for name in ("forest.exr", "forest.exr.import"):
+        shutil.copy(ROOT / "tests/data" / name, project / "tests/data")
+    shutil.copy(ROOT / "tools/diet/picture.gd", project)
+    (project / "project.godot").write_text(PROJECT.format(side=SIDE), encoding="utf-8")
+    # A panorama that no scene has.
+    shutil.copy(ROOT / "tests/data/forest.exr", project / UNUSED)
+    presets = [PRESET.format(number=0, name=WHOLE, filter=ALL_FILES, exclude="", cut="false")]
+    for name in SCENES:
+        others = ",".join(f"tests/diet/scenes/{other}.*" for other in SCENES if other != name)
+        presets.append(PRESET.format(number=len(presets), name=name, filter=ALL_FILES, exclude=others, cut="true"))
+    values = {"number": len(presets), "name": CHOSEN, "filter": CHOSEN_FILES.format(scene="isotropic"), "exclude": ""}
+    presets.append(PRESET.format(**values, cut="true"))
+    (project / "export_presets.cfg").write_text("\n".join(presets), encoding="utf-8")
+    run_engine("--headless", "--path", project, "--import")
+
+
+def export(project, preset, scenes, folder):
+    """Exports a preset and draws scenes of the pack. Bytes below the addon by its folders, and by scene (materials,
+    sizes of environments, picture)."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    pack = folder / "game.pck"
+    run_engine("--headless", "--path", project, "--export-pack", preset, pack)
+    sizes = {}
+    for name, size, _start in read_files(pack):
+        if name.startswith(f"{ADDON}/"):
+            part = name.split("/")[2]
+            sizes[part] = sizes.get(part, 0) + size
+    run_engine(
+        *["--main-pack", pack, "--audio-driver", "Dummy", "--rendering-method", "mobile", "--rendering-driver", "vulkan"],
+        *["--", folder, *(f"res://tests/diet/scenes/{scene}.tscn" for scene in scenes)],
+        drawing=True,
+    )
+    drawn = {}
+    for scene in scenes:
+        said = json.loads((folder / f"{scene}.json").read_text(encoding="utf-8"))
+        drawn[scene] = (said["materials"], said["sizes"], read_picture(folder / f"{scene}.png"))
+    return sizes, drawn
+
+
+def read_picture(file):
+    """(height, width, 3), from 0 to 1, as displayed."""
+    return np.asarray(Image.open(file).convert("RGB"), dtype=float) / 255.0
+
+
+def psnr(one, other):
+    """Decibels between pictures; equal ones are 99 apart."""
+    return min(-10.0 * np.log10(max(float(np.mean((one - other) ** 2)), 1e-12)), 99.0)
+
+
+def features_of(material):
+    """Which of FEATURES a material's shader has uniforms of."""
+    return [
+        feature
+        for feature, parts in FEATURES.items()
+        if any(part in uniform for uniform in material["uniforms"] for part in parts)
+    ]
+
+
+def row_of(scene, whole, cut, reason):
+    """Of a scene: bytes before and after, materials, and how far apart the pictures are. `whole` and `cut` are of export()."""
+    before, after = (sum(sizes.values()) for sizes, _drawn in (whole, cut))
+    materials_before, sizes_before, picture_before = whole[1][scene]
+    materials, sizes, picture = cut[1][scene]
+    return {
+        "scene": scene,
+        "label": SCENES[scene],
+        "before": before,
+        "after": after,
+        "gone": 1.0 - after / before,
+        "before_by_folder": whole[0],
+        "after_by_folder": cut[0],
+        "environments": {"before": sizes_before, "after": sizes},
+        "psnr": round(psnr(picture_before, picture), 1),
+        "same_shaders": [m["code"] for m in materials_before] == [m["code"] for m in materials],
+        "materials": [
+            {
+                "samplers": sum(material["uniforms"].values()),
+                "environment_fetches": material["fetches"]["environment"],
+                "table_fetches": material["fetches"]["table"],
+                "features": features_of(material),
+                "code": material["code"],
+            }
+            for material in materials
+        ],
+        "report": reason,
+    }
+
+
+class Checks:
+    def __init__(self):
+        self.passed = self.failed = 0
+
+    def expect(self, name, holds):
+        print(f"  {name}: {'passed' if holds else 'FAILED'}", flush=True)
+        self.passed += bool(holds)
+        self.failed += not holds
+
+
+def check_chosen(checks, project, folder, rows):
+    """Of a scene that is exported by what it depends on, another environment stays behind and the cut is as good."""
+    folder.mkdir(parents=True, exist_ok=True)
+    run_engine("--headless", "--path", project, "--export-pack", CHOSEN, folder / "game.pck")
+    files = read_files(folder / "game.pck")
+    names = " ".join(name for name, _size, _start in files)
+    checks.expect("one scene: its panorama goes along", "forest.exr" in names)
+    checks.expect("one scene: a panorama that it does not reach stays behind", "unused.exr" not in names)
+    # Scripts of other scenes count, because classes may be reached by name.
+    by_script = next(row for row in rows if row["scene"] == "by_script")
+    ours = sum(size for name, size, _start in files if name.startswith(f"{ADDON}/"))
+    checks.expect(f"one scene: {ours} bytes of the addon", 0 < ours <= by_script["after"])
+
+
+def check(checks, rows, pictures):
+    by_scene = {row["scene"]: row for row in rows}
+    for row in rows:
+        name = row["scene"]
+        checks.expect(f"{name}: {row['before']} bytes before, {row['after']} after", row["after"] <= row["before"])
+        checks.expect(f"{name}: pictures are {row['psnr']} dB apart, {LEAST_PSNR} wanted", row["psnr"] >= LEAST_PSNR)
+        checks.expect(f"{name}: the shaders are the same, too", row["same_shaders"])
+        checks.expect(f"{name}: the picture shows something", np.ptp(pictures[name]) > 0.3)
+    gone = by_scene["isotropic"]["gone"]
+    checks.expect(f"isotropic: {gone:.1%} of the bytes are gone, {LEAST_SHARE_GONE:.0%} wanted", gone >= LEAST_SHARE_GONE)
+    for name in PLAIN:
+        allowed = [] if name == "isotropic" else ["anisotropy"]
+        for material in by_scene[name]["materials"]:
+            checks.expect(f"{name}: what the material does not use is not in its shader", material["features"] == allowed)
+            checks.expect(f"{name}: two samplers", material["samplers"] == 2)
+    for name in PLAIN:
+        row = by_scene[name]
+        wanted = row["report"]["environment_size"]
+        checks.expect(f"{name}: the environment has {wanted} texels a side", row["environments"]["after"] == [wanted])
+        checks.expect(f"{name}: it was automatic and would be larger", row["environments"]["before"] == [0] and wanted < 512)
+    full = by_scene["everything"]["materials"][0]["features"]
+    checks.expect("everything: it is there where it is used", set(full) == set(FEATURES))
+    # What says that pictures are the same must tell others apart.
+    control = psnr(pictures["isotropic"], pictures["by_script"])
+    checks.expect(f"other widths are told apart: {control:.1f} dB", control < LEAST_PSNR)
+
+
+def measure(work, progress):
+    """The rows, and of each scene its picture."""
+    project = work / "project"
+    progress("importing")
+    make_project(project)
+    progress("everything of the addon")
+    whole = export(project, WHOLE, list(SCENES), work / WHOLE)
+    rows, pictures = [], {}
+    for scene in SCENES:
+        progress(scene)
+        cut = export(project, scene, [scene], work / scene)
+        reason = json.loads((project / ".godot/lobelight_export.json").read_text(encoding="utf-8"))
+        rows.append(row_of(scene, whole, cut, reason))
+        pictures[scene] = cut[1][scene][2]
+    return rows, pictures
+
+
+def write(path, text):
+    part = path.with_name(f"{path.name}.{os.getpid()}.part")
+    part.write_text(text, encoding="utf-8")
+    os.replace(part, path)
+
+
+def main():
+    parser = argparse.ArgumentParser(allow_abbrev=False)
+    parser.add_argument("--work", type=pathlib.Path, required=True)
+    parser.add_argument("--json", type=pathlib.Path)
+    parser.add_argument("--out", type=pathlib.Path)
+    parser.add_argument("--instructions", action="store_true")
+    options = parser.parse_args()
+    steps = len(SCENES) + 2
+    said = iter(range(1, steps + 1))
+    checks = Checks()
+    try:
+        work = options.work.resolve()
+        rows, pictures = measure(work, lambda text: print(f"[{next(said)}/{steps}] {text}", file=sys.stderr, flush=True))
+        check_chosen(checks, work / "project", work / CHOSEN, rows)
+        if options.instructions:
+            print("instructions", file=sys.stderr, flush=True)
+            instructions.add(rows, work / "instructions")
+    except (AcceptanceError, instructions.EngineError, OSError) as error:
+        print(f"diet: {error}", file=sys.stderr)
+        return 1
+    check(checks, rows, pictures)
+    if options.json:
+        write(options.json, json.dumps(rows, indent=1) + "\n")
+    if options.out:
+        options.out.mkdir(parents=True, exist_ok=True)
+        write(options.out / "results.json", json.dumps(rows, indent=1) + "\n")
+        write(options.out / "README.md", acceptance_page.page(rows, LEAST_PSNR))
+    print(f"diet: {checks.passed} passed, {checks.failed} failed")
+    return 1 if checks.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
