@@ -126,7 +126,7 @@ func _entries(
 				var settings := method.settings()
 				# Methods with a map of their own have measured it themselves.
 				if settings.has("pyramid") and timing_rounds > 0:
-					settings["prefilter_ms"] = await stage.update_time(settings["pyramid"])
+					settings.merge(await stage.update_cost(settings["pyramid"]))
 				entry["settings"] = settings
 		entry["gpu_ms_rounds"] = Array(times.get(name, PackedFloat32Array()))
 		entries.append(entry)

@@ -41,7 +41,7 @@ var fis_bias := 0.0
 var _environment: LobeEnvironment3D
 var _lights: Dictionary[String, EnvironmentLight] = {}
 var _prefiltered: Dictionary[String, PrefilteredMap] = {}
-var _update_times: Dictionary[String, float] = {}
+var _update_costs: Dictionary[String, Dictionary] = {}
 var _map: DualParaboloidMap
 
 
@@ -77,27 +77,24 @@ func light_materials() -> String:
 	return ""
 
 
-## GPU milliseconds of an update of the pyramid made with the filter [param used_filter], which is
-## what a changing environment costs; 0 where the driver gives no times. To be awaited.
-func update_time(used_filter: String) -> float:
-	if _update_times.has(used_filter):
-		return _update_times[used_filter]
+## What a changing environment costs: an update of the pyramid made with the filter
+## [param used_filter]. {"prefilter_ms"}, milliseconds of the GPU, 0 where the driver gives none;
+## in Compatibility, where the engine has no times of it, {"prefilter_wall_ms"}, the median of what
+## whole updates take, which end with reading back and so wait for the GPU. To be awaited.
+func update_cost(used_filter: String) -> Dictionary:
+	if _update_costs.has(used_filter):
+		return _update_costs[used_filter]
 	if not (await light_materials()).is_empty():
-		return 0.0
+		return {}
 	_environment.filter = FILTERS[used_filter]
-	_environment.measure_cost = true
-	_environment.update_mode = LobeEnvironment3D.UpdateMode.EVERY_FRAME
-	for frame in _MEASURED_UPDATES:
-		await RenderingServer.frame_post_draw
-	_environment.update_mode = LobeEnvironment3D.UpdateMode.ONCE
-	for frame in _FRAMES_LATE:
-		await RenderingServer.frame_post_draw
-	_update_times[used_filter] = _environment.update_gpu_time
-	_environment.measure_cost = false
+	_update_costs[used_filter] = (
+		{"prefilter_wall_ms": await _update_wall_time()}
+		if LinearViewport.is_compatibility()
+		else {"prefilter_ms": await _update_gpu_time()}
+	)
 	_environment.filter = FILTERS[filter]
-	_environment.update_mode = LobeEnvironment3D.UpdateMode.WHEN_CHANGED
 	await _environment.rebuild()
-	return _update_times[used_filter]
+	return _update_costs[used_filter]
 
 
 ## Texels along the side of the faces that light materials; 0 before [method light_materials].
@@ -142,6 +139,31 @@ func dual_paraboloid_map() -> DualParaboloidMap:
 		var side := 2 * Pyramid.automatic_size(panorama)
 		_map = await DualParaboloidMap.make(panorama, side, tree)
 	return _map
+
+
+func _update_gpu_time() -> float:
+	_environment.measure_cost = true
+	_environment.update_mode = LobeEnvironment3D.UpdateMode.EVERY_FRAME
+	for frame in _MEASURED_UPDATES:
+		await RenderingServer.frame_post_draw
+	_environment.update_mode = LobeEnvironment3D.UpdateMode.ONCE
+	for frame in _FRAMES_LATE:
+		await RenderingServer.frame_post_draw
+	var time := _environment.update_gpu_time
+	_environment.measure_cost = false
+	_environment.update_mode = LobeEnvironment3D.UpdateMode.WHEN_CHANGED
+	return time
+
+
+func _update_wall_time() -> float:
+	# The first compiles shaders.
+	await _environment.rebuild()
+	var times := PackedFloat32Array()
+	for update in _MEASURED_UPDATES:
+		var started := Time.get_ticks_usec()
+		await _environment.rebuild()
+		times.append(0.001 * (Time.get_ticks_usec() - started))
+	return LinearViewport.median(times)
 
 
 func _make_environment(used_filter: String) -> LobeEnvironment3D:

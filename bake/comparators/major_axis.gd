@@ -4,7 +4,7 @@ extends ComparisonMethod
 ## Major Axis Sampling"; see major_axis.gdshaderinc.
 ##
 ## The map is filtered for the BRDF that is drawn, with level l as wide as alpha = (l / last)² as in
-## the authors' programme. A changing environment pays for it: "prefilter_ms" of the settings.
+## the authors' programme. A changing environment pays for it, see [method settings].
 
 const AlbedoTable := preload("albedo_table.gd")
 const ComparisonSphere := preload("comparison_sphere.gd")
@@ -50,4 +50,6 @@ func cost() -> Dictionary:
 
 
 func settings() -> Dictionary:
-	return {"face_size": _map.size, "prefilter_ms": _map.gpu_time}
+	var found := {"face_size": _map.size}
+	found.merge(_map.get_update_cost())
+	return found

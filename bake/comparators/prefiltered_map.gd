@@ -14,8 +14,11 @@ const _FRAMES_LATE := 6
 
 var cubemap: Cubemap
 var size := 0
-## What the GPU took to filter it, in milliseconds; 0 if the driver gives no times.
-var gpu_time := 0.0
+
+# What the GPU took to filter it, in milliseconds; 0 if the driver gives no times.
+var _gpu_time := 0.0
+# In Compatibility: what drawing it and reading it back takes.
+var _wall_time := 0.0
 
 
 ## The map of [param face_size] texels a side whose level l reflects as a surface of the width
@@ -33,12 +36,23 @@ static func make(
 	await RenderingServer.frame_post_draw
 	var made := new()
 	made.size = face_size
-	# First, because reading back throws the times away.
-	await made._measure(viewports)
-	made._take(viewports)
+	if LinearViewport.is_compatibility():
+		await made._take_in_time(viewports)
+	else:
+		# First, because reading back throws the times away.
+		await made._measure(viewports)
+		made._take(viewports)
 	for viewport in viewports:
 		viewport.free()
 	return made if made.cubemap != null else null
+
+
+## What a changed environment costs, for [method ComparisonMethod.settings]; see
+## [method ComparisonStage.update_cost].
+func get_update_cost() -> Dictionary:
+	if LinearViewport.is_compatibility():
+		return {"prefilter_wall_ms": _wall_time}
+	return {"prefilter_ms": _gpu_time}
 
 
 static func _draw(
@@ -94,6 +108,17 @@ func _take(viewports: Array[SubViewport]) -> void:
 	cubemap.create_from_images(images)
 
 
+# Draws once more, with shaders that are compiled by now; reading back waits until all is drawn.
+func _take_in_time(viewports: Array[SubViewport]) -> void:
+	for viewport in viewports:
+		viewport.render_target_update_mode = SubViewport.UPDATE_ONCE
+	_take(viewports)
+	var started := Time.get_ticks_usec()
+	await RenderingServer.frame_post_draw
+	_take(viewports)
+	_wall_time = 0.001 * (Time.get_ticks_usec() - started)
+
+
 # The times come some frames late, and only to viewports that are drawn: these are, of nothing, and
 # keep what they show. The first time that comes is the largest.
 func _measure(viewports: Array[SubViewport]) -> void:
@@ -111,4 +136,4 @@ func _measure(viewports: Array[SubViewport]) -> void:
 			)
 			longest[level] = maxf(longest[level], time)
 	for time in longest:
-		gpu_time += time
+		_gpu_time += time

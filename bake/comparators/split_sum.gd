@@ -5,7 +5,7 @@ extends ComparisonMethod
 ##
 ## It is the best that a split sum can do: engines have one map for all BRDFs and widths, of levels
 ## between which they interpolate, and an albedo of GGX. A changing environment, or a changing
-## width, pays for the filtering: "prefilter_ms" of the settings.
+## width, pays for the filtering, see [method settings].
 
 const AlbedoTable := preload("albedo_table.gd")
 const ComparisonSphere := preload("comparison_sphere.gd")
@@ -46,9 +46,10 @@ func cost() -> Dictionary:
 
 
 func settings() -> Dictionary:
-	return {
+	var found := {
 		"face_size": _map.size,
 		"map_alpha": _width,
 		"normal": "bent by %.3f, as in Filament" % _bend if _bend != 0.0 else "the surface's",
-		"prefilter_ms": _map.gpu_time,
 	}
+	found.merge(_map.get_update_cost())
+	return found

@@ -419,6 +419,15 @@ class PageTest(unittest.TestCase):
         self.assertIn("| Ward (0.1, 0.1) | splitsum | 49.8 | 0.20 | 5.00 | 30.0 |", markdown)
         self.assertNotIn("| Ward (0.1, 0.1) | fis40 | ", markdown.split("When the environment changes")[1].split("</details>")[0])
 
+    def test_updates_by_the_clock_are_not_mixed_with_gpu_times(self):
+        entries = self.entries()
+        own = entry(ISOTROPIC, USUAL, renderer="gl_compatibility")
+        for method, time in {"gmm8": 8.0, "splitsum": 50.0}.items():
+            own["methods"][method]["settings"] = {"prefilter_wall_ms": time}
+        markdown, _ = self.write([*entries, own])
+        self.assertIn("| Ward (0.1, 0.1) | gl_compatibility | splitsum | 50.0 | 6.25 | 30.0 |", markdown)
+        self.assertNotIn("Updates and frames", markdown)
+
     def test_html_is_escaped(self):
         html = document.html_page("a < b", [document.Text("1 < 2 & `x<y>` **bold** [a](b.md)")])
         self.assertIn("1 &lt; 2 &amp; <code>x&lt;y&gt;</code> <strong>bold</strong>", html)

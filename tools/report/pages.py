@@ -21,6 +21,7 @@ SECTIONS = (
     studies.pyramids,
     studies.biases,
     studies.changing,
+    studies.changing_by_the_clock,
     studies.bake,
     studies.phones,
     studies.reference,

@@ -280,7 +280,7 @@ def methods(page):
         family = next((name for name in DESCRIPTIONS if method.startswith(name)), "")
         seen = [e for e in page.entries if method in e["methods"] and not e["stage"]]
         settings = seen[0]["methods"][method]["settings"] if seen else {}
-        said = ", ".join(f"{name} {plain(value)}" for name, value in settings.items() if name != "prefilter_ms")
+        said = ", ".join(f"{name} {plain(value)}" for name, value in settings.items() if not name.startswith("prefilter"))
         where = joined(dict.fromkeys(e["renderer"] for e in seen)) if seen else "–"
         rows.append([method, DESCRIPTIONS.get(family, ""), said, where])
     page.table(["method", "what it is", "settings in its first case", "drawn in"], rows, 4)
