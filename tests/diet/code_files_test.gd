@@ -74,6 +74,11 @@ func test_shaders_lose_their_comments_and_nothing_else() -> void:
 	assert_int(shaders).is_greater(10)
 
 
+func test_paths_in_includes_are_no_comments() -> void:
+	var code := '#include "res://a.gdshaderinc"\n\n// why\n\tfloat x; // y\n'
+	assert_str(CodeFiles.strip(code)).is_equal('#include "res://a.gdshaderinc"\nfloat x;\n')
+
+
 # What a compiler sees: no comments, one space between words.
 func _words_of(code: String) -> String:
 	var comment := RegEx.create_from_string("//[^\n]*")

@@ -312,7 +312,7 @@ def main():
         if options.instructions:
             print("instructions", file=sys.stderr, flush=True)
             instructions.add(rows, work / "instructions")
-    except (AcceptanceError, instructions.EngineError, OSError) as error:
+    except (AcceptanceError, instructions.EngineError, instructions.ListingError, OSError) as error:
         print(f"diet: {error}", file=sys.stderr)
         return 1
     check(checks, rows, pictures)

@@ -76,7 +76,9 @@ static func strip(code: String) -> String:
 		return code
 	var kept := ""
 	for line in code.split("\n"):
-		var text := line.get_slice("//", 0).strip_edges()
+		# Paths of other files may hold what elsewhere begins a comment.
+		var text := line if "#include" in line else line.get_slice("//", 0)
+		text = text.strip_edges()
 		if text:
 			kept += text + "\n"
 	return kept

@@ -48,10 +48,13 @@ func _export_begin(
 	_diet = null
 	if get_option(CUT_TABLES) != false:
 		_diet = Diet.of_files(ProjectFiles.of_preset(get_export_preset()))
+		if get_option(FIT_ENVIRONMENTS) == false:
+			_diet.fit.size = 0
+			_diet.fit.why = "the preset says so"
 
 
 func _export_file(path: String, type: String, _features: PackedStringArray) -> void:
-	if type == "PackedScene" and _diet != null and get_option(FIT_ENVIRONMENTS) != false:
+	if type == "PackedScene" and _diet != null:
 		var scene := _diet.fit.make_scene(path)
 		if not scene.is_empty():
 			add_file("res://.godot/exported/lobelight/%s.scn" % path.md5_text(), scene, true)
