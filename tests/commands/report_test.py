@@ -128,6 +128,13 @@ class VerdictTest(unittest.TestCase):
         # Of different widths the fewest lobes that do.
         self.assertEqual((second["method"], second["reached"]), ("gmm4", True))
 
+    def test_the_renderers_part_of_a_frame(self):
+        entries = [entry(ISOTROPIC, USUAL), entry(ISOTROPIC, USUAL, renderer="forward_plus")]
+        entries[1]["fixed_ms_rounds"] = [0.66, 1.32, 0.66]
+        (first, *own), (second, *other) = analysis.fixed_parts(entries)
+        self.assertEqual((first, second), ("mobile", "forward_plus"))
+        self.assertEqual([round(v, 4) for v in (*own, *other)], [0.2, round(0.2 / 3.3, 4), 0.66, 0.2])
+
     def test_goals_are_missed_by_time_or_error(self):
         slow = {**USUAL, "fis40": (31.0, 40, 2.9)}
         (missed,) = analysis.goals([entry(ISOTROPIC, slow)])

@@ -135,6 +135,20 @@ def time_ratio_without_fixed(entry, method, baseline):
     return metrics.median_ratio_without(entry["fixed_ms_rounds"], *rounds)
 
 
+def fixed_parts(entries):
+    """[(renderer, ms, share)]: medians of the time of a sphere that reflects nothing, and of its share of fis40's."""
+    found = {}
+    for entry in entries:
+        rival = entry["methods"][GOAL_RIVAL]["gpu_ms_rounds"]
+        where = entry["renderer"] + (", GPU" if entry["device"] == cases.GPU else "")
+        found.setdefault(where, []).extend(zip(entry["fixed_ms_rounds"], rival))
+    return [
+        (where, float(np.median([fixed for fixed, _ in rounds])), float(np.median([f / time for f, time in rounds])))
+        for where, rounds in found.items()
+        if rounds
+    ]
+
+
 def ratio_range(entry, method, baseline=cases.BASELINE):
     """Lower and upper quartile of the rounds' ratios; None where either was not measured."""
     rounds = [entry["methods"].get(name, {}).get("gpu_ms_rounds", []) for name in (method, baseline)]

@@ -35,6 +35,9 @@ def source_of(entries):
         renderers = joined(dict.fromkeys(entry["renderer"] for entry in own))
         dates = sorted({entry["where"]["date"] for entry in own})
         size = joined(sorted({f"{entry['size']}²" for entry in own}))
+        timed = sorted({entry["timing_size"] for entry in own if entry["timing_size"]})
+        if timed:
+            size += f" (times {joined(f'{side}²' for side in timed)})"
         kind = " in software" if device == cases.SOFTWARE else ""
         days = " to ".join(dict.fromkeys((dates[0], dates[-1])))
         lines.append(f"{renderers}, {size}, {driver}{kind}, API {version}, {machine}, Godot {engine}, {days}")

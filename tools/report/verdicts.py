@@ -103,8 +103,12 @@ def acceptance(page):
     head = ["renderer", "material", "method", "its dB", f"{analysis.GOAL_RIVAL} dB"]
     head += ["whole frame's time ratio", "without the renderer's part", "goal"]
     page.table(head, rows, names=3)
-    places = [row["place"] for row in page.goals]
-    page.text(source_of([analysis.find(page.entries, place) for place in places]))
+    entries = [analysis.find(page.entries, row["place"]) for row in page.goals]
+    page.items(
+        f"{renderer}: the renderer's part is {number(fixed, 2)} ms of a frame, {100 * share:.0f} % of `{analysis.GOAL_RIVAL}`'s"
+        for renderer, fixed, share in analysis.fixed_parts(entries)
+    )
+    page.text(source_of(entries))
 
 
 def best_cell(best):
