@@ -74,6 +74,16 @@ func test_shaders_lose_their_comments_and_nothing_else() -> void:
 	assert_int(shaders).is_greater(10)
 
 
+func test_a_feature_that_the_project_names_itself_is_not_empty() -> void:
+	var file := "user://diet_include.gd"
+	var path := SHADERS + "clear_coat.gdshaderinc"
+	_write(file, 'extends Node\n\nvar code := "#include \\"%s\\"\\n"\n' % path)
+	for files: Array in [[SCENES + "isotropic.tscn", file], [file, SCENES + "isotropic.tscn"]]:
+		var code: CodeFiles = Diet.of_files(PackedStringArray(files)).code
+		assert_int(code.files[path].after).is_greater(500)
+	DirAccess.remove_absolute(file)
+
+
 func test_paths_in_includes_are_no_comments() -> void:
 	var code := '#include "res://a.gdshaderinc"\n\n// why\n\tfloat x; // y\n'
 	assert_str(CodeFiles.strip(code)).is_equal('#include "res://a.gdshaderinc"\nfloat x;\n')

@@ -40,7 +40,7 @@ var _features: Features
 var _classes: Dictionary[String, String] = {}
 # Who needs a file.
 var _needed_by: Dictionary[String, String] = {}
-var _named_path := RegEx.create_from_string('"([\\w./:]+\\.(gd|gdshader|gdshaderinc|res))"')
+var _named_path := RegEx.create_from_string("[\\w./:]+\\.(gdshaderinc|gdshader|gd|res)\\b")
 var _named_uid := RegEx.create_from_string("uid://\\w+")
 var _word := RegEx.create_from_string("\\b[A-Z]\\w+\\b")
 
@@ -105,7 +105,7 @@ func _look_at(file: String) -> void:
 func _read(file: String, text: String) -> void:
 	var named := false
 	for found in _named_path.search_all(text):
-		var path := found.get_string(1)
+		var path := found.get_string()
 		if not path.begins_with("res://"):
 			path = file.get_base_dir().path_join(path).simplify_path()
 		named = _need(path, file) or named
@@ -128,8 +128,11 @@ func _need(path: String, by: String) -> bool:
 		return false
 	if path.get_extension() == "res":
 		path = TABLE_SET
-	if not files.has(path) or _needed_by.has(path):
-		return files.has(path)
+	if not files.has(path):
+		return false
+	# What the project's own shaders name is not empty, even if the run time has named it before.
+	if _needed_by.has(path) and (by.begins_with(RUN_TIME) or not _is_empty(path)):
+		return true
 	_needed_by[path] = by
 	if _is_empty(path):
 		return true
