@@ -1,18 +1,29 @@
 extends Node3D
-## The demo: a few metals on a plinth, lit by one of two environments.
+## The demo: a small hall of objects in environments to switch and to turn, lit by one method or by
+## two, side by side.
 
-## The tables or the environment have changed.
+## What the interface shows has changed.
 signal changed
 
+const CapturedSky := preload("studio/captured_sky.gdshader")
+const CompareView := preload("compare/compare_view.gd")
 const DemoObject := preload("demo_object.gd")
 const DemoTables := preload("demo_tables.gd")
-const LOBE_COUNTS: PackedInt32Array = [4, 8, 16]
+const Methods := preload("methods.gd")
+const OrbitCamera := preload("orbit_camera.gd")
+const RivalLight := preload("rivals/rival_light.gd")
+const Studio := preload("studio/studio.gd")
+## All objects have the sliders' widths.
+const EVERY_OBJECT := -1
+# Texels along the side of the captured map's faces: it is made in every frame.
+const _CAPTURE_SIZE := 128
 
 
-## An environment map, and how it is shown.
+## An environment, and how it is shown.
 class Setting:
 	extends RefCounted
 	var title: String
+	## Null for the studio, which is captured.
 	var panorama: Texture2D
 	## Factor from radiance to what the tone mapper takes.
 	var exposure: float
@@ -38,61 +49,271 @@ var lobe_count := 8:
 	set(value):
 		lobe_count = value
 		_load_tables()
-## How far the environment is turned by the user, in radians.
+## How far the environment, or the studio's lamp, is turned by the user, in radians.
 var turn := 0.0:
 	set(value):
 		turn = value
 		_turn_environment()
-## Tables that could not be loaded.
+## Of [enum Methods.Method].
+var left_method: int = Methods.Method.OURS:
+	set(value):
+		left_method = value
+		_show_methods()
+## Of [enum Methods.Method], or NONE: the left method alone.
+var right_method: int = Methods.NONE:
+	set(value):
+		right_method = value
+		_show_methods()
+## Where the right method begins, in widths of the picture.
+var divider := 0.5:
+	set(value):
+		divider = clampf(value, 0.0, 1.0)
+		compare_view.divider = divider
+		changed.emit()
+## Whose widths the sliders set: a number in [member objects], or EVERY_OBJECT.
+var chosen := EVERY_OBJECT:
+	set(value):
+		chosen = value
+		changed.emit()
+## Sets of tables that have not been made.
 var missing_tables: PackedStringArray = []
 var settings: Array[Setting] = [
 	Setting.new("Hall", preload("environments/hall.exr"), 1.1, 305.0),
 	Setting.new("Sunset", preload("environments/sunset.exr"), 0.75, 200.0),
+	Setting.new("Studio, live", null, 0.9, 0.0),
 ]
+## Those that the sliders are for.
+var objects: Array[DemoObject] = []
 
+# Objects, and what they stand on.
+var _surfaces: Array[DemoObject] = []
+var _sky: Sky
+# Counts changes of the environment, so that a map which comes late is not taken.
+var _light_request := 0
+
+@onready var camera: OrbitCamera = $Camera
+@onready var compare_view: CompareView = $CompareView
 @onready var _light: LobeEnvironment3D = $Light
-@onready var _backdrop: ShaderMaterial = ($Backdrop as MeshInstance3D).material_override
+@onready var _backdrop: MeshInstance3D = $Backdrop
+@onready var _studio: Studio = $Studio
 @onready var _world: Environment = ($World as WorldEnvironment).environment
 
 
 func _ready() -> void:
+	for node in find_children("*", "MeshInstance3D", true, false):
+		var object := node as DemoObject
+		if object != null:
+			_surfaces.append(object)
+			if object.title:
+				objects.append(object)
+	compare_view.set_up(camera)
+	camera.tapped.connect(_choose_at)
+	_light.rebuilt.connect(_on_light_rebuilt)
 	_load_tables()
 	_show_environment()
+	_show_methods()
+
+
+## Whether the environment is the studio.
+func is_live() -> bool:
+	return settings[environment_index].panorama == null
+
+
+## (roughness, anisotropy, the direction's angle in radians) of what is chosen; of several objects,
+## those of the first.
+func get_widths() -> Vector3:
+	return objects[maxi(chosen, 0)].get_widths()
+
+
+## Sets the same for what is chosen.
+func set_widths(widths: Vector3) -> void:
+	for object in _get_chosen():
+		object.set_widths(widths)
+	changed.emit()
+
+
+## Gives what is chosen the widths that it had at the start.
+func reset_widths() -> void:
+	for object in _get_chosen():
+		object.reset_widths()
+	changed.emit()
+
+
+## Whether one of the halves is drawn by a method.
+func shows(method: Methods.Method) -> bool:
+	return left_method == method or right_method == method
+
+
+## Makes the light of what is shown, for all methods. Returns "" once it is there, or one sentence.
+func prepare_light() -> String:
+	var made := await _light.rebuild()
+	# What is captured shows its own light from the second time on.
+	if made and is_live():
+		made = await _light.rebuild()
+	if not made:
+		return _light.get_rebuild_error()
+	await _light_rivals()
+	return ""
+
+
+func _get_chosen() -> Array[DemoObject]:
+	if chosen == EVERY_OBJECT:
+		return objects
+	var one: Array[DemoObject] = [objects[chosen]]
+	return one
 
 
 func _load_tables() -> void:
 	missing_tables.clear()
-	for node in find_children("*", "MeshInstance3D", true, false):
-		var object := node as DemoObject
-		if object == null:
-			continue
-		var table := DemoTables.load_table(object.recipe, lobe_count)
-		if table == null:
-			var path := DemoTables.path_of(object.recipe, lobe_count)
-			if path not in missing_tables:
-				missing_tables.append(path)
-		(object.material_override as LobeMaterial3D).table = table
-	if missing_tables:
-		printerr("Tables are missing, run ./dev demo to bake them: ", ", ".join(missing_tables))
+	var tables := DemoTables.set_of(lobe_count)
+	if tables == null:
+		missing_tables.append(DemoTables.path_of(lobe_count))
+	for surface in _surfaces:
+		# Without them, the material takes the ready set.
+		surface.material.table_set = tables
+	_find_missing_thesis()
 	changed.emit()
+
+
+func _find_missing_thesis() -> void:
+	if shows(Methods.Method.THESIS) and DemoTables.thesis_set() == null:
+		missing_tables.append(DemoTables.THESIS)
+	if missing_tables:
+		var files := ", ".join(missing_tables)
+		push_warning("Tables are missing, run ./dev demo to make them: " + files)
 
 
 func _show_environment() -> void:
 	if not is_node_ready():
 		return
 	var setting := settings[environment_index]
+	var live := is_live()
+	_studio.visible = live
+	_backdrop.visible = not live
 	_light.panorama = setting.panorama
-	_backdrop.set_shader_parameter(&"panorama", setting.panorama)
+	_light.size = _CAPTURE_SIZE if live else 0
+	if live:
+		_light.source = LobeEnvironment3D.Source.CAPTURE
+		# In Compatibility a face is read back at a time, which is enough for one frame.
+		_light.update_mode = (
+			LobeEnvironment3D.UpdateMode.TIME_SLICED
+			if RenderingServer.get_current_rendering_method() == "gl_compatibility"
+			else LobeEnvironment3D.UpdateMode.EVERY_FRAME
+		)
+	else:
+		_light.source = LobeEnvironment3D.Source.PANORAMA
+		_light.update_mode = LobeEnvironment3D.UpdateMode.WHEN_CHANGED
+		var shown: ShaderMaterial = _backdrop.material_override
+		shown.set_shader_parameter(&"panorama", setting.panorama)
 	_world.tonemap_exposure = setting.exposure
+	_world.sky_rotation = Vector3.ZERO
 	_turn_environment()
+	_show_stock_light()
+	_light_rivals()
 	changed.emit()
 
 
 func _turn_environment() -> void:
+	if not is_node_ready():
+		return
+	if is_live():
+		_studio.turn_lamp(turn)
+		return
 	_light.rotation.y = turn + deg_to_rad(settings[environment_index].turn)
-	_backdrop.set_shader_parameter(&"environment_rotation", _light.global_basis.inverse())
+	var shown: ShaderMaterial = _backdrop.material_override
+	shown.set_shader_parameter(&"environment_rotation", _light.global_basis.inverse())
+	_world.sky_rotation = Vector3(0.0, _light.rotation.y, 0.0)
 
 
-## Makes the light of the environment that is shown. Returns "" once it is there, or one sentence.
-func prepare_light() -> String:
-	return "" if await _light.rebuild() else _light.get_rebuild_error()
+func _show_methods() -> void:
+	if not is_node_ready():
+		return
+	compare_view.is_comparing = right_method != Methods.NONE
+	for surface in _surfaces:
+		surface.show_methods(left_method, right_method)
+	_show_stock_light()
+	_light_rivals()
+	missing_tables.clear()
+	_load_tables()
+
+
+# What the engine's own material is lit by: the engine's sky. Without that material there is none.
+func _show_stock_light() -> void:
+	var needed := shows(Methods.Method.STOCK)
+	if needed:
+		# One for all: Godot 4.6.3 leaks a sky in Compatibility that is freed before it has been drawn.
+		if _sky == null:
+			_sky = Sky.new()
+		_sky.process_mode = Sky.PROCESS_MODE_REALTIME if is_live() else Sky.PROCESS_MODE_QUALITY
+		_sky.sky_material = _captured_sky() if is_live() else _panorama_sky()
+	_world.sky = _sky if needed else null
+	_world.ambient_light_source = (
+		Environment.AMBIENT_SOURCE_SKY if needed else Environment.AMBIENT_SOURCE_COLOR
+	)
+	_world.reflected_light_source = (
+		Environment.REFLECTION_SOURCE_SKY if needed else Environment.REFLECTION_SOURCE_DISABLED
+	)
+
+
+func _panorama_sky() -> PanoramaSkyMaterial:
+	var sky_material := PanoramaSkyMaterial.new()
+	sky_material.panorama = settings[environment_index].panorama
+	return sky_material
+
+
+func _captured_sky() -> ShaderMaterial:
+	var sky_material := ShaderMaterial.new()
+	sky_material.shader = CapturedSky
+	sky_material.set_shader_parameter(&"captured", _light.get_cubemap())
+	return sky_material
+
+
+# The map may be another one than before.
+func _on_light_rebuilt() -> void:
+	if is_live() and _world.sky != null:
+		var sky_material := _sky.sky_material as ShaderMaterial
+		if sky_material.get_shader_parameter(&"captured") != _light.get_cubemap():
+			sky_material.set_shader_parameter(&"captured", _light.get_cubemap())
+
+
+# The maps of the methods that need their own.
+func _light_rivals() -> void:
+	if not is_node_ready() or not RivalLight.Pyramid.has_renderer():
+		return
+	if not shows(Methods.Method.THESIS) and not shows(Methods.Method.SAMPLES):
+		return
+	_light_request += 1
+	var request := _light_request
+	var light: RivalLight
+	if is_live():
+		while _light.get_cubemap() == null or _light.get_cubemap().get_width() != _light.size:
+			await _light.rebuild_finished
+		light = RivalLight.of_environment(_light)
+	else:
+		light = await RivalLight.of_panorama(settings[environment_index].panorama)
+	if request != _light_request:
+		return
+	for surface in _surfaces:
+		surface.rival_light = light
+
+
+# The object under a tap; all of them if there is none.
+func _choose_at(at: Vector2) -> void:
+	var origin := camera.project_ray_origin(at)
+	var direction := camera.project_ray_normal(at)
+	var best := EVERY_OBJECT
+	var nearest := INF
+	for index in objects.size():
+		var to_object := objects[index].global_transform.affine_inverse()
+		var triangles := objects[index].mesh.generate_triangle_mesh()
+		var hit := triangles.intersect_ray(
+			to_object * origin, (to_object.basis * direction).normalized()
+		)
+		if hit.is_empty():
+			continue
+		var at_object: Vector3 = hit["position"]
+		var place := objects[index].global_transform * at_object
+		if origin.distance_to(place) < nearest:
+			nearest = origin.distance_to(place)
+			best = index
+	chosen = best

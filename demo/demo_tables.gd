@@ -1,15 +1,25 @@
-## The tables that [code]./dev demo[/code] bakes for the demo.
+## The sets of tables that the demo draws: a ready one, and what `./dev demo` fits besides.
 
+const READY := "res://addons/lobelight/tables/ggx_8.res"
 const FOLDER := "res://demo/build/tables"
-const RECIPES := "res://bake/recipes"
+const LOBE_COUNTS: PackedInt32Array = [4, 8, 16]
+const THESIS := FOLDER + "/thesis_8.res"
 
 
-## The file of the table that a recipe gives with a number of lobes.
-static func path_of(recipe: String, lobe_count: int) -> String:
-	return "%s/%s_%d.res" % [FOLDER, recipe, lobe_count]
+## The file of the set with a number of lobes for each view.
+static func path_of(lobe_count: int) -> String:
+	return READY if lobe_count == 8 else "%s/ggx_%d.res" % [FOLDER, lobe_count]
 
 
-## The table of a recipe; [code]null[/code] if it has not been baked.
-static func load_table(recipe: String, lobe_count: int) -> LobeTable:
-	var path := path_of(recipe, lobe_count)
-	return load(path) as LobeTable if FileAccess.file_exists(path) else null
+## The set with a number of lobes; [code]null[/code] if it has not been made.
+static func set_of(lobe_count: int) -> LobeTableSet:
+	return _load(path_of(lobe_count))
+
+
+## The set of the thesis' method; [code]null[/code] if it has not been made.
+static func thesis_set() -> LobeTableSet:
+	return _load(THESIS)
+
+
+static func _load(path: String) -> LobeTableSet:
+	return load(path) as LobeTableSet if ResourceLoader.exists(path) else null

@@ -60,6 +60,20 @@ static func knot(u: float, v: float, size: float, tube: float) -> Transform3D:
 	return _frame(size * centre + tube * normal, tangent, normal)
 
 
+## A vase that stands on the origin, turned about the y axis and brushed along the parallels: its
+## radius is a smooth curve of the height, its wall has no thickness, its brim is open.
+static func vase(u: float, v: float, radius: float, height: float) -> Transform3D:
+	var azimuth := TAU * u
+	# The profile and its derivative, as multiples of radius and height.
+	var width := 0.62 + 0.34 * sin(1.0 + 4.6 * v) + 0.1 * v
+	var slope := 0.34 * 4.6 * cos(1.0 + 4.6 * v) + 0.1
+	var profile := Vector2(slope * radius, height).normalized()
+	var point := _around(azimuth) * width * radius + Vector3.UP * (1.0 - v) * height
+	# v runs downwards, as on the sphere.
+	var normal := _around(azimuth) * profile.y + Vector3.UP * profile.x
+	return _frame(point, _along(azimuth), normal)
+
+
 # The horizontal unit vector at an angle about the y axis.
 static func _around(azimuth: float) -> Vector3:
 	return Vector3(cos(azimuth), 0.0, sin(azimuth))

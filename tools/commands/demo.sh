@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# bakes the demo's tables, draws its pictures and measures them; --window opens it ([--env N] [--renderer R] [--out DIR])
+# draws the demo's pictures and measures them; --window opens it, --pictures draws all of it ([--env N] [--renderer R] [--out DIR])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/demo_tables.sh
 source "$ROOT/tools/lib/demo_tables.sh"
@@ -13,6 +13,7 @@ usage() {
   cat <<USAGE
 usage: ./dev demo [--env N] [--renderer R] [--out DIR] [--json FILE]
        ./dev demo --window [--renderer R]
+       ./dev demo --pictures DIR [--renderer R]
        ./dev demo --engine-light FILE
 
 --env N        only environment N: 1 hall, 2 sunset
@@ -20,6 +21,7 @@ usage: ./dev demo [--env N] [--renderer R] [--out DIR] [--json FILE]
 --out DIR      where the pictures go (default: build/demo)
 --json FILE    writes what the closing table shows as JSON
 --window       opens the demo on your display
+--pictures DIR every environment by every method, landscape and portrait, and both with the controls: 30 pictures
 --engine-light FILE   draws one picture instead, in Forward+: what the engine's lights, fog, decals, reflection
                probes and VoxelGI make of a LobeMaterial3D (left) and of a StandardMaterial3D (right)
 USAGE
@@ -27,10 +29,11 @@ USAGE
 
 window=false
 renderer=mobile
-out=$ROOT/build/demo
+out=""
 json=""
 chosen=""
 engine_light=""
+all_pictures=""
 while (($# > 0)); do
   case $1 in
     -h | --help)
@@ -38,13 +41,14 @@ while (($# > 0)); do
       exit 0
       ;;
     --window) window=true ;;
-    --env | --renderer | --out | --json | --engine-light)
+    --env | --renderer | --out | --json | --engine-light | --pictures)
       [[ -n ${2:-} ]] || die "demo: $1 needs a value"
       case $1 in
         --env) chosen=$2 ;;
         --renderer) renderer=$2 ;;
         --out) out=$(realpath -m -- "$2") ;;
         --json) json=$(realpath -m -- "$2") ;;
+        --pictures) all_pictures=$(realpath -m -- "$2") ;;
         --engine-light) engine_light=$(realpath -m -- "$2") ;;
       esac
       shift
@@ -65,11 +69,10 @@ if [[ -n $chosen ]]; then
 fi
 [[ -z $json || -d $(dirname -- "$json") ]] || die "demo: $json: its folder does not exist"
 
+# draw_pictures OPTION…
 draw_pictures() {
-  local arguments=(--out "$out" --json "$work/pictures.json")
-  [[ -z $chosen ]] || arguments+=(--env "$chosen")
   say "Drawing the demo (software renderers need some seconds a picture) …"
-  LOBELIGHT_CWD=$PWD godot_rendered "$renderer" --no-header --script res://demo/render_pictures.gd -- "${arguments[@]}"
+  LOBELIGHT_CWD=$PWD godot_rendered "$renderer" --no-header --script res://demo/render_pictures.gd -- "$@"
 }
 
 # measure ENVIRONMENT: error and GPU time of the measured recipe, as ./dev compare has them.
@@ -92,8 +95,16 @@ if [[ -t 1 ]]; then LOBELIGHT_TERMINAL=1; fi
 if $window; then
   export LOBELIGHT_DISPLAY=real
   need_display
-  bake_demo_tables 4 8 16
+  bake_demo_tables
   godot_rendered "$renderer" res://demo/demo.tscn
+  exit
+fi
+
+if [[ -n $all_pictures ]]; then
+  mkdir -p "$all_pictures" || die "demo: $all_pictures: the folder cannot be made"
+  bake_demo_tables thesis_8
+  draw_pictures --out "$all_pictures" --all yes
+  say "$all_pictures"
   exit
 fi
 
@@ -103,11 +114,13 @@ if [[ -n $engine_light ]]; then
   exit
 fi
 
+out=${out:-$ROOT/build/demo}
 mkdir -p "$out" || die "demo: $out: the folder cannot be made"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-bake_demo_tables 8
-draw_pictures
+arguments=(--out "$out" --json "$work/pictures.json")
+[[ -z $chosen ]] || arguments+=(--env "$chosen")
+draw_pictures "${arguments[@]}"
 for environment in "${environments[@]}"; do
   measure "$environment"
 done

@@ -3,6 +3,8 @@
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/gdunit.sh
 source "$ROOT/tools/lib/gdunit.sh"
+# shellcheck source=tools/lib/demo_tables.sh
+source "$ROOT/tools/lib/demo_tables.sh"
 # shellcheck source=tools/testing/runners.sh
 source "$ROOT/tools/testing/runners.sh"
 

@@ -1,26 +1,21 @@
 # shellcheck shell=bash
-# The tables of the demo's materials, where demo/demo_tables.gd looks for them.
+# The sets of tables that the demo draws besides the ready ones, where demo/demo_tables.gd looks for them.
 
 DEMO_TABLES=$ROOT/demo/build/tables
-DEMO_RECIPES=(polished_ward satin_ward brushed_ward satin_ggx)
+DEMO_SETS=(ggx_4 ggx_16 thesis_8)
 
-# bake_demo_table RECIPE LOBES: bakes a table unless it is there, made from the same recipe by the same library.
-bake_demo_table() {
-  local recipe=$ROOT/bake/recipes/$1.json table=$DEMO_TABLES/$1_$2.res key
-  key="$(content_hash "$recipe") $(library_key)"
-  if [[ ! -f $table ]] || ! stamp_is "$table.key" "$key"; then
-    bash "$ROOT/tools/commands/bake.sh" --recipe "$recipe" --lobes "$2" --out "$table" >&2
-    write_stamp "$table.key" "$key"
-  fi
-}
-
-# bake_demo_tables LOBES…
+# bake_demo_tables [SET…]: bakes those sets, or all, unless they are there, made from the same recipe by the same library.
 bake_demo_tables() {
-  local recipe lobes
+  local sets=("$@") name file key
+  ((${#sets[@]} > 0)) || sets=("${DEMO_SETS[@]}")
+  key="$(content_hash "$ROOT/bake/bake_demo.gd") $(library_key)"
   mkdir -p "$DEMO_TABLES"
-  for recipe in "${DEMO_RECIPES[@]}"; do
-    for lobes in "$@"; do
-      bake_demo_table "$recipe" "$lobes"
-    done
+  for name in "${sets[@]}"; do
+    file=$DEMO_TABLES/$name.res
+    if [[ ! -f $file ]] || ! stamp_is "$file.key" "$key"; then
+      say "Fitting the demo's tables $name (up to a minute) …"
+      godot_headless --no-header --script res://bake/bake_demo.gd -- --set "$name" --out "$file" >&2
+      write_stamp "$file.key" "$key"
+    fi
   done
 }

@@ -97,6 +97,9 @@ run_demo() {
 # The rendered suites, once in each renderer.
 run_render() {
   local renderer
+  # The demo's pictures show the thesis' method too.
+  need_import
+  bake_demo_tables thesis_8
   for renderer in ${LOBELIGHT_RENDERERS:-mobile gl_compatibility forward_plus}; do
     run_suites "render-$renderer" tests/render in_time godot_rendered "$renderer"
   done

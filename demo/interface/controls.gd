@@ -1,0 +1,187 @@
+extends PanelContainer
+## The panel of controls: what is shown, by which methods, and the widths of the objects.
+
+const DemoRoot := preload("../demo.gd")
+const DemoTables := preload("../demo_tables.gd")
+const Look := preload("look.gd")
+const Methods := preload("../methods.gd")
+const _TURN_PER_SECOND := 0.5
+# As the labels' longest word.
+const _LABEL_WIDTH := 92.0
+
+var is_turning := false:
+	set(value):
+		is_turning = value
+		turning.set_pressed_no_signal(value)
+
+var environments := OptionButton.new()
+var turning := CheckButton.new()
+var turn := HSlider.new()
+var left := OptionButton.new()
+var right := OptionButton.new()
+var lobes := OptionButton.new()
+var objects := OptionButton.new()
+var roughness := HSlider.new()
+var anisotropy := HSlider.new()
+var direction := HSlider.new()
+var reset := Button.new()
+
+var _demo: DemoRoot
+var _rows := VBoxContainer.new()
+var _values: Dictionary[HSlider, Label] = {}
+
+
+## Builds the controls of a demo.
+func set_up(demo: DemoRoot) -> void:
+	_demo = demo
+	var scroll := ScrollContainer.new()
+	scroll.horizontal_scroll_mode = ScrollContainer.SCROLL_MODE_DISABLED
+	add_child(scroll)
+	_rows.size_flags_horizontal = Control.SIZE_EXPAND_FILL
+	_rows.add_theme_constant_override(&"separation", 4)
+	scroll.add_child(_rows)
+	_add_environment()
+	_add_methods()
+	_add_widths()
+	demo.changed.connect(show_state)
+	show_state()
+
+
+## The next item of an option button, around the end.
+static func choose_next(options: OptionButton) -> void:
+	var index := options.selected
+	for step in options.item_count:
+		index = (index + 1) % options.item_count
+		if not options.is_item_disabled(index):
+			break
+	options.select(index)
+	options.item_selected.emit(index)
+
+
+## Shows what the demo shows.
+func show_state() -> void:
+	environments.select(_demo.environment_index)
+	left.select(left.get_item_index(_demo.left_method))
+	right.select(right.get_item_index(_demo.right_method + 1))
+	lobes.select(lobes.get_item_index(_demo.lobe_count))
+	objects.select(objects.get_item_index(_demo.chosen + 1))
+	turning.text = "Move the lamp" if _demo.is_live() else "Turn"
+	_show_value(turn, fposmod(rad_to_deg(_demo.turn), 360.0), "%.0f°")
+	var widths := _demo.get_widths()
+	_show_value(roughness, widths.x, "%.2f")
+	_show_value(anisotropy, widths.y, "%.2f")
+	_show_value(direction, rad_to_deg(widths.z), "%.0f°")
+
+
+func _process(delta: float) -> void:
+	if is_turning:
+		_demo.turn += _TURN_PER_SECOND * delta
+		_show_value(turn, fposmod(rad_to_deg(_demo.turn), 360.0), "%.0f°")
+
+
+func _add_environment() -> void:
+	for setting in _demo.settings:
+		environments.add_item(setting.title)
+	environments.item_selected.connect(func(index: int) -> void: _demo.environment_index = index)
+	_add_row("Light", environments)
+	turning.toggled.connect(func(pressed: bool) -> void: is_turning = pressed)
+	_add_slider("Direction", turn, 0.0, 360.0, 1.0)
+	turn.value_changed.connect(
+		func(degrees: float) -> void:
+			_demo.turn = deg_to_rad(degrees)
+			_show_value(turn, degrees, "%.0f°")
+	)
+	_add_row("", turning)
+
+
+func _add_methods() -> void:
+	right.add_item("Nothing", 0)
+	for method: int in Methods.Method.values():
+		left.add_item(Methods.TITLES[method], method)
+		right.add_item(Methods.TITLES[method], method + 1)
+	for options: OptionButton in [left, right]:
+		var thesis := Methods.Method.THESIS + (1 if options == right else 0)
+		_disable_without(options, thesis, DemoTables.thesis_set())
+	left.item_selected.connect(
+		func(index: int) -> void: _demo.left_method = left.get_item_id(index)
+	)
+	right.item_selected.connect(
+		func(index: int) -> void: _demo.right_method = right.get_item_id(index) - 1
+	)
+	for count in DemoTables.LOBE_COUNTS:
+		lobes.add_item("%d lobes" % count, count)
+		_disable_without(lobes, count, DemoTables.set_of(count))
+	lobes.item_selected.connect(
+		func(index: int) -> void: _demo.lobe_count = lobes.get_item_id(index)
+	)
+	_add_row("Method", left)
+	_add_row("Lobes", lobes)
+	_add_row("Beside it", right)
+
+
+func _add_widths() -> void:
+	objects.add_item("All objects", 0)
+	for index in _demo.objects.size():
+		objects.add_item(_demo.objects[index].title, index + 1)
+	objects.item_selected.connect(
+		func(index: int) -> void: _demo.chosen = objects.get_item_id(index) - 1
+	)
+	_add_row("Object", objects)
+	_add_slider("Roughness", roughness, 0.12, 0.8, 0.01)
+	_add_slider("Anisotropy", anisotropy, 0.0, 1.0, 0.01)
+	_add_slider("Brushing", direction, -90.0, 90.0, 1.0)
+	for slider: HSlider in [roughness, anisotropy, direction]:
+		slider.value_changed.connect(func(_value: float) -> void: _set_widths(slider))
+	reset.text = "As at the start"
+	reset.pressed.connect(func() -> void: _demo.reset_widths())
+	_add_row("", reset)
+
+
+# What has not been baked cannot be chosen.
+func _disable_without(options: OptionButton, id: int, tables: LobeTableSet) -> void:
+	if tables == null:
+		options.set_item_disabled(options.get_item_index(id), true)
+
+
+func _set_widths(moved: HSlider) -> void:
+	var widths := _demo.get_widths()
+	if moved == roughness:
+		widths.x = roughness.value
+	elif moved == anisotropy:
+		widths.y = anisotropy.value
+	else:
+		widths.z = deg_to_rad(direction.value)
+	_demo.set_widths(widths)
+
+
+func _add_row(text: String, control: Control) -> HBoxContainer:
+	var row := HBoxContainer.new()
+	row.add_theme_constant_override(&"separation", 8)
+	var label := Label.new()
+	label.text = text
+	label.custom_minimum_size.x = _LABEL_WIDTH
+	label.add_theme_color_override(&"font_color", Color(Look.TEXT, 0.75))
+	row.add_child(label)
+	control.custom_minimum_size.y = Look.TOUCH
+	control.size_flags_horizontal = Control.SIZE_EXPAND_FILL
+	control.focus_mode = Control.FOCUS_NONE
+	row.add_child(control)
+	_rows.add_child(row)
+	return row
+
+
+func _add_slider(text: String, slider: HSlider, low: float, high: float, step: float) -> void:
+	slider.min_value = low
+	slider.max_value = high
+	slider.step = step
+	slider.scrollable = false
+	var value := Label.new()
+	value.custom_minimum_size.x = 44.0
+	value.horizontal_alignment = HORIZONTAL_ALIGNMENT_RIGHT
+	_add_row(text, slider).add_child(value)
+	_values[slider] = value
+
+
+func _show_value(slider: HSlider, value: float, form: String) -> void:
+	slider.set_value_no_signal(value)
+	_values[slider].text = form % value

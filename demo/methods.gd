@@ -1,0 +1,20 @@
+extends Object
+## The ways in which the demo lights its objects.
+
+enum Method { OURS, THESIS, SAMPLES, STOCK }
+## No second method.
+const NONE := -1
+
+const TITLES: PackedStringArray = ["Lobelight", "Thesis 2015", "Importance sampling", "Godot"]
+
+
+## A method's name for people; [param lobes] are those of this project's.
+static func title_of(method: int, lobes: int) -> String:
+	match method:
+		Method.OURS:
+			return "%s, %d lobes" % [TITLES[method], lobes]
+		Method.THESIS:
+			return "%s, 8 lobes" % TITLES[method]
+		Method.SAMPLES:
+			return "%s, 40 samples" % TITLES[method]
+	return "Godot's own material"

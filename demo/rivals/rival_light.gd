@@ -1,0 +1,44 @@
+extends RefCounted
+## The surroundings as the other methods take them: a cube map with mip levels.
+
+const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
+
+var cubemap: TextureLayered
+## Texels along the side of a face.
+var size := 1
+## Whether the levels blur alike in all directions; otherwise they are means of 2 × 2 texels.
+var is_round := false
+
+
+## A panorama with means of 2 × 2 texels, as the methods were published with; null where there is
+## no renderer. To be awaited.
+static func of_panorama(panorama: Texture2D) -> RefCounted:
+	if not Pyramid.has_renderer():
+		return null
+	var environment := LobeEnvironment3D.new()
+	environment.filter = LobeEnvironment3D.Filter.BOX
+	environment.panorama = panorama
+	var made: RefCounted = null
+	if await environment.rebuild():
+		made = new()
+		made.cubemap = environment.get_cubemap()
+		made.size = made.cubemap.get_width()
+	environment.free()
+	return made
+
+
+## The map that [param environment] lights the scene with.
+static func of_environment(environment: LobeEnvironment3D) -> RefCounted:
+	if environment.get_cubemap() == null:
+		return null
+	var made := new()
+	made.cubemap = environment.get_cubemap()
+	made.size = made.cubemap.get_width()
+	made.is_round = Pyramid.is_round(environment.filter as Pyramid.Filter)
+	return made
+
+
+## c of shaders/environment.gdshaderinc.
+func level_variance() -> float:
+	var filter := Pyramid.Filter.DISC if is_round else Pyramid.Filter.BOX
+	return Pyramid.LEVEL_VARIANCES[filter]

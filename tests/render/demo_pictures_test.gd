@@ -1,0 +1,174 @@
+extends GdUnitTestSuite
+## The demo's pictures, small: what they show, and that halves are those of their methods.
+
+const DemoRoot := preload("res://demo/demo.gd")
+const DemoScene := preload("res://demo/demo.tscn")
+const DemoTables := preload("res://demo/demo_tables.gd")
+const Interface := preload("res://demo/interface/interface.gd")
+const Methods := preload("res://demo/methods.gd")
+const LANDSCAPE := Vector2i(192, 108)
+const PORTRAIT := Vector2i(81, 144)
+# Texels along the side of the map's faces.
+const MAP_SIZE := 64
+# The engine makes its own maps over several frames.
+const STOCK_FRAMES := 4
+
+var _view: SubViewport
+var _demo: DemoRoot
+
+
+func before_test() -> void:
+	_view = auto_free(SubViewport.new())
+	_view.size = LANDSCAPE
+	_view.own_world_3d = true
+	_view.use_hdr_2d = true
+	_view.render_target_update_mode = SubViewport.UPDATE_DISABLED
+	add_child(_view)
+	_demo = DemoScene.instantiate()
+	_view.add_child(_demo)
+	(_demo.get_node("Interface") as Interface).hide()
+
+
+# Makes the light first, a small one, unless nothing of it has changed.
+func _draw(is_lit := false) -> Image:
+	if not is_lit:
+		(_demo.get_node("Light") as LobeEnvironment3D).size = MAP_SIZE
+		assert_str(await _demo.prepare_light()).is_empty()
+	await get_tree().process_frame
+	for frame in STOCK_FRAMES if _demo.shows(Methods.Method.STOCK) else 1:
+		_view.render_target_update_mode = SubViewport.UPDATE_ONCE
+		await RenderingServer.frame_post_draw
+	var picture := _view.get_texture().get_image()
+	picture.convert(Image.FORMAT_RGBF)
+	return picture
+
+
+# The mean difference of two pictures' parts.
+func _difference(a: Image, b: Image, part := Rect2i()) -> float:
+	var area := part if part.has_area() else Rect2i(Vector2i.ZERO, a.get_size())
+	var first := a.get_region(area).get_data().to_float32_array()
+	var second := b.get_region(area).get_data().to_float32_array()
+	var sum := 0.0
+	for i in first.size():
+		sum += absf(first[i] - second[i])
+	return sum / first.size()
+
+
+func _mean(picture: Image) -> float:
+	var sum := 0.0
+	for value in picture.get_data().to_float32_array():
+		sum += value
+	return sum / (3 * picture.get_width() * picture.get_height())
+
+
+# The part of the picture that an object's box covers.
+func _place_of(index: int) -> Rect2:
+	var object := _demo.objects[index]
+	var box := object.get_aabb()
+	var place := Rect2(
+		_demo.camera.unproject_position(object.global_transform * box.get_center()), Vector2.ZERO
+	)
+	for corner in 8:
+		var at := _demo.camera.unproject_position(
+			object.global_transform * box.get_endpoint(corner)
+		)
+		place = place.expand(at)
+	return place
+
+
+func test_every_method_draws_every_environment() -> void:
+	# ./dev test bakes it.
+	assert_object(DemoTables.thesis_set()).is_not_null()
+	for environment in _demo.settings.size():
+		_demo.environment_index = environment
+		_view.size = PORTRAIT if environment == 1 else LANDSCAPE
+		var pictures: Array[Image] = []
+		for method: int in Methods.Method.values():
+			_demo.left_method = method
+			var picture := await _draw()
+			assert_float(_mean(picture)).is_between(0.02, 1.0)
+			for other in pictures:
+				# Not the same, and yet of the same things.
+				assert_float(_difference(picture, other)).is_between(2e-4, 0.2)
+			pictures.append(picture)
+
+
+func test_objects_are_where_they_should_be() -> void:
+	for size: Vector2i in [LANDSCAPE, PORTRAIT]:
+		_view.size = size
+		var whole := await _draw()
+		var screen := Rect2(Vector2.ZERO, size)
+		for index in _demo.objects.size():
+			var place := _place_of(index)
+			assert_bool(screen.encloses(place)).is_true()
+			_demo.objects[index].hide()
+			var without := await _draw(true)
+			_demo.objects[index].show()
+			var inside := Rect2i(place.grow(1.0)).intersection(Rect2i(Vector2i.ZERO, size))
+			assert_float(_difference(whole, without, inside)).is_greater(0.01)
+			without.blit_rect(whole, inside, inside.position)
+			assert_float(_difference(whole, without)).is_less(1e-6)
+
+
+func test_the_divider_splits_the_picture_exactly() -> void:
+	_demo.left_method = Methods.Method.OURS
+	var left := await _draw()
+	_demo.left_method = Methods.Method.SAMPLES
+	var right := await _draw()
+	_demo.left_method = Methods.Method.OURS
+	_demo.right_method = Methods.Method.SAMPLES
+	for at: int in [1, 101, LANDSCAPE.x - 1]:
+		_demo.divider = float(at) / LANDSCAPE.x
+		assert_int(_demo.compare_view.get_divider_pixel()).is_equal(at)
+		var expected := left.duplicate() as Image
+		var rest := Rect2i(at, 0, LANDSCAPE.x - at, LANDSCAPE.y)
+		expected.blit_rect(right, rest, rest.position)
+		assert_float(_difference(await _draw(true), expected)).is_equal(0.0)
+	_demo.divider = 0.0
+	assert_float(_difference(await _draw(true), right)).is_equal(0.0)
+	_demo.divider = 1.0
+	assert_float(_difference(await _draw(true), left)).is_equal(0.0)
+
+
+func test_the_lamp_of_the_studio_moves_in_reflections() -> void:
+	_demo.environment_index = 2
+	# The ball of car paint.
+	var place := Rect2i(_place_of(4).grow(-3.0))
+	var before := await _draw()
+	_demo.turn = 0.7
+	var after := await _draw()
+	assert_float(_difference(before, after, place)).is_greater(1e-3)
+
+
+func test_sliders_change_what_they_are_for() -> void:
+	var before := await _draw()
+	for widths: Vector3 in [
+		Vector3(0.7, 0.0, 0.0), Vector3(0.4, 0.97, 0.0), Vector3(0.4, 0.97, 1.5)
+	]:
+		_demo.set_widths(widths)
+		var after := await _draw(true)
+		assert_float(_difference(before, after)).is_greater(1e-3)
+		before = after
+
+
+func test_controls_are_drawn_in_both_layouts() -> void:
+	var interface: Interface = _demo.get_node("Interface")
+	for size: Vector2i in [LANDSCAPE, PORTRAIT]:
+		_view.size = size
+		interface.ui_scale = 0.3
+		# The camera makes room for the panel, so the scene is not to be seen for this.
+		for node: Node3D in [
+			_demo.get_node("Backdrop"),
+			_demo.get_node("Objects"),
+			_demo.get_node("Plinth"),
+			_demo.get_node("Shadows")
+		]:
+			node.hide()
+		interface.hide()
+		var without := await _draw()
+		interface.show()
+		await get_tree().process_frame
+		var with_controls := await _draw()
+		var panel := interface.controls.get_rect()
+		var place := Rect2i(Rect2(panel.position * 0.3, panel.size * 0.3).grow(-2.0))
+		assert_float(_difference(without, with_controls, place)).is_greater(0.003)
