@@ -59,7 +59,7 @@ need_python
 need_library
 need_import
 mkdir -p "$out" || die "android: $out: the folder cannot be made"
-bake_demo_tables
+bake_demo_tables "${DEMO_SETS[@]}"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -95,7 +95,7 @@ if [[ -t 1 ]]; then LOBELIGHT_TERMINAL=1; fi
 if $window; then
   export LOBELIGHT_DISPLAY=real
   need_display
-  bake_demo_tables
+  bake_demo_tables "${DEMO_SETS[@]}"
   godot_rendered "$renderer" res://demo/demo.tscn
   exit
 fi

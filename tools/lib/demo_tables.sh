@@ -2,15 +2,16 @@
 # The sets of tables that the demo draws besides the ready ones, where demo/demo_tables.gd looks for them.
 
 DEMO_TABLES=$ROOT/demo/build/tables
+# shellcheck disable=SC2034 # used by those who source this file
 DEMO_SETS=(ggx_4 ggx_16 thesis_8)
 
-# bake_demo_tables [SET…]: bakes those sets, or all, unless they are there, made from the same recipe by the same library.
+# bake_demo_tables SET…: bakes those sets, "${DEMO_SETS[@]}" being all, unless they are there, made from the same recipe by the
+# same library.
 bake_demo_tables() {
-  local sets=("$@") name file key
-  ((${#sets[@]} > 0)) || sets=("${DEMO_SETS[@]}")
+  local name file key
   key="$(content_hash "$ROOT/bake/bake_demo.gd") $(library_key)"
   mkdir -p "$DEMO_TABLES"
-  for name in "${sets[@]}"; do
+  for name in "$@"; do
     file=$DEMO_TABLES/$name.res
     if [[ ! -f $file ]] || ! stamp_is "$file.key" "$key"; then
       say "Fitting the demo's tables $name (up to a minute) …"
