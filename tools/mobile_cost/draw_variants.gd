@@ -3,8 +3,7 @@ extends SceneTree
 ## it compiles; see engine.py.
 ##
 ## Arguments: [code]-- FOLDER NAME,NAME…[/code]. Says on stderr that a material is being drawn, and
-## goes on once FOLDER has a file of the material's name. The environment's LOBELIGHT_VARIANTS names
-## another file of variants.
+## goes on once FOLDER has a file of the material's name.
 
 const VARIANTS_PATH := "res://tools/mobile_cost/variants.json"
 # Unlike all variants: drivers compile what they know no second time.
@@ -21,9 +20,7 @@ func _initialize() -> void:
 func _run() -> void:
 	var arguments := OS.get_cmdline_user_args()
 	var folder := arguments[0]
-	var path := OS.get_environment("LOBELIGHT_VARIANTS")
-	var text := FileAccess.get_file_as_string(path if path else VARIANTS_PATH)
-	var variants: Dictionary = JSON.parse_string(text)
+	var variants: Dictionary = JSON.parse_string(FileAccess.get_file_as_string(VARIANTS_PATH))
 	_build_scene()
 	await _draw("warm_up", _make_shader(WARM_UP), folder)
 	for name in arguments[1].split(","):
@@ -70,6 +67,8 @@ func _make_material(variant: Dictionary) -> Material:
 				material.set(&"table", _make_table(variant))
 		"shader":
 			material = _make_shader("\n".join(PackedStringArray(variant["code"] as Array)))
+		"rival":
+			material = _make_shader(_make_rival_code(variant))
 	var properties: Dictionary = variant.get("properties", {})
 	for property: String in properties:
 		assert(property in material, property)
@@ -82,6 +81,16 @@ func _make_shader(code: String) -> ShaderMaterial:
 	material.shader = Shader.new()
 	material.shader.code = code
 	return material
+
+
+# The file bake/comparators/RIVAL.gdshaderinc has a function RIVAL_specular.
+func _make_rival_code(variant: Dictionary) -> String:
+	var code := "shader_type spatial;\nrender_mode ambient_light_disabled;\n"
+	for define: String in variant["defines"]:
+		code += "#define %s\n" % define
+	code += '#include "res://bake/comparators/%s.gdshaderinc"\n' % variant["rival"]
+	code += "#define RIVAL_SPECULAR %s_specular\n" % variant["rival"]
+	return code + '#include "res://tools/mobile_cost/rival_material.gdshaderinc"\n'
 
 
 # A table of no BRDF: how many lobes it has decides what the shader costs, and nothing else.

@@ -10,10 +10,11 @@ import matplotlib.pyplot as plt  # noqa: E402
 from gpus import GPUS  # noqa: E402
 
 COLOURS = {"empty": "#999999", "stock": "#5b7fa6", "gmm": "#2f8f5b", "fis": "#b5633c"}
+OTHER_RIVALS = "#8a6fb0"
 
 
 def _colour(variant):
-    return next(colour for start, colour in COLOURS.items() if variant.startswith(start))
+    return next((colour for start, colour in COLOURS.items() if variant.startswith(start)), OTHER_RIVALS)
 
 
 def cost(rows, variants, path):

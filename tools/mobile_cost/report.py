@@ -108,8 +108,9 @@ compilers will differ.
   and Compatibility's programs are its variant for that. Mesa uses no half floats on Adreno 320.
 - *vertex*: instructions of the vertex shader.
 - *ready set*: tables of addons/lobelight/tables, with what goes with them for energy; the others have a table of their own.
-  *fis…*: the shader of bake/comparators in a material like ours, with Ward's samples from uniforms, which works where the
-  widths are the same all over, or with GGX's visible normals, sampled per pixel.
+  Rivals are the shaders of bake/comparators in a material like ours. FIS has Ward's samples from uniforms, which works where
+  the widths are the same all over, or GGX's visible normals, sampled per pixel. The others, too, have widths that are the same
+  all over; majoraxis and the split sum fetch from maps that were filtered beforehand.
 """
 
 
