@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# draws the demo's pictures and measures them; --window opens it, --pictures draws all of it ([--env N] [--renderer R] [--out DIR])
+# draws the demo's pictures and measures them; --window opens it; --pictures DIR, --cost ([--env N] [--renderer R] [--out DIR])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/demo_tables.sh
 source "$ROOT/tools/lib/demo_tables.sh"
@@ -14,6 +14,7 @@ usage() {
 usage: ./dev demo [--env N] [--renderer R] [--out DIR] [--json FILE]
        ./dev demo --window [--renderer R]
        ./dev demo --pictures DIR [--renderer R]
+       ./dev demo --cost [--out DIR]
        ./dev demo --engine-light FILE
 
 --env N        only environment N: 1 hall, 2 sunset
@@ -22,6 +23,8 @@ usage: ./dev demo [--env N] [--renderer R] [--out DIR] [--json FILE]
 --json FILE    writes what the closing table shows as JSON
 --window       opens the demo on your display
 --pictures DIR every environment by every method, landscape and portrait, and both with the controls: 30 pictures
+--cost         what a frame asks of the shader units of two phones, from the compilers' statistics and the pixels that the
+               demo's surfaces cover; README.md and results.json go to DIR (default: docs/report/demo-cost)
 --engine-light FILE   draws one picture instead, in Forward+: what the engine's lights, fog, decals, reflection
                probes and VoxelGI make of a LobeMaterial3D (left) and of a StandardMaterial3D (right)
 USAGE
@@ -34,6 +37,7 @@ json=""
 chosen=""
 engine_light=""
 all_pictures=""
+cost=false
 while (($# > 0)); do
   case $1 in
     -h | --help)
@@ -41,6 +45,7 @@ while (($# > 0)); do
       exit 0
       ;;
     --window) window=true ;;
+    --cost) cost=true ;;
     --env | --renderer | --out | --json | --engine-light | --pictures)
       [[ -n ${2:-} ]] || die "demo: $1 needs a value"
       case $1 in
@@ -111,6 +116,20 @@ fi
 if [[ -n $engine_light ]]; then
   godot_rendered forward_plus --no-header --script res://demo/engine_light.gd -- --out "$engine_light"
   say "$engine_light"
+  exit
+fi
+
+if $cost; then
+  out=${out:-$ROOT/docs/report/demo-cost}
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+  variants=$("$PYTHON" "$ROOT/tools/demo/cost.py" --variants)
+  say "Counting instructions …"
+  bash "$ROOT/tools/commands/mobile-cost.sh" --gpus adreno320,adreno630 --variants "$variants" \
+    --json "$work/rows.json" --out "$work/mobile-cost" >&2
+  say "Counting pixels …"
+  godot_rendered gl_compatibility --no-header --script res://bake/demo_coverage.gd -- --out "$work/coverage.json"
+  "$PYTHON" "$ROOT/tools/demo/cost.py" --rows "$work/rows.json" --coverage "$work/coverage.json" --out "$out"
   exit
 fi
 
