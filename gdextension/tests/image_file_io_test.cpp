@@ -28,7 +28,7 @@ struct TemporaryFolder {
     std::error_code ignored;
     fs::remove_all(path, ignored);
   }
-  std::string file(const std::string& name) const { return (path / name).u8string(); }
+  std::string file(const std::string& name) const { return (path / fs::u8path(name)).u8string(); }
   std::ptrdiff_t entries() const {
     return std::distance(fs::directory_iterator(path), fs::directory_iterator());
   }

@@ -151,7 +151,7 @@ refuses "mobile-cost, an unknown GPU" "no GPU 'adreno1'" mobile-cost --gpus adre
 refuses "mobile-cost, an unknown variant" "no variant 'gmm9'" mobile-cost --variants gmm9
 refuses "mobile-cost, JSON in a missing folder" "missing/rows.json" mobile-cost --json missing/rows.json
 refuses "package, an unknown option" "--colour" package --colour red
-refuses "package, every desktop" "not available yet" package --all
+refuses "package, every library and none" "--no-library" package --all --no-library
 refuses "package, an output with the wrong ending" "x.tar" package --out x.tar
 refuses "package, an output in a missing folder" "missing/x.zip" package --out missing/x.zip
 refuses "android, an unknown option" "--colour" android --colour red

@@ -1,18 +1,20 @@
 #!/usr/bin/env bash
-# packs the addon, with the editor's library, into the zip that is unpacked into a project ([--out X.zip] [--all])
+# packs the addon, with the editor's library, into the zip that is unpacked into a project ([--all] [--out X.zip])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 usage() {
   cat <<USAGE
-usage: ./dev package [--out X.zip] [--json FILE]
+usage: ./dev package [--all | --no-library] [--out X.zip] [--json FILE]
 
 --out X.zip    where the package goes (default: build/lobelight.zip)
 --no-library   without the native library: materials, environments and the ready tables work, baking does not
---all          with the libraries for every desktop; not available yet
+--all          with the libraries for Windows (x86-64), macOS (arm64) and Linux (both); those for other systems than this
+               one are built with Zig, which fetches 94 MB and takes half an hour of a processor the first time
 --json FILE    the files, their sizes and the package's SHA-256
 
 The package holds addons/lobelight as a project needs it: run time, editor scripts, ready tables, icons and the library
-for this machine with the licences of what is linked into it. Equal sources give equal bytes.
+for this machine, or those for every desktop, with the licences of what is linked into them. Equal sources give equal
+bytes.
 USAGE
 }
 
@@ -23,7 +25,15 @@ export PYTHONDONTWRITEBYTECODE=1 LOBELIGHT_CWD=$PWD
 tool=$ROOT/tools/package/package.py
 # What is wrong with the options is said before anything is built.
 "$PYTHON" "$tool" --check "$@"
+options=(--downloads "$CACHE/downloads")
 if [[ " $* " != *" --no-library "* ]]; then
   need_library
 fi
-exec "$PYTHON" "$tool" --downloads "$CACHE/downloads" "$@"
+if [[ " $* " == *" --all "* ]]; then
+  mapfile -t targets < <("$PYTHON" "$tool" --targets)
+  for target in "${targets[@]}"; do
+    need_cross_library "$target"
+  done
+  options+=(--libraries "$ROOT/build/libraries" --zig "$ZIG_FOLDER")
+fi
+exec "$PYTHON" "$tool" "${options[@]}" "$@"

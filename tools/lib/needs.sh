@@ -87,6 +87,47 @@ need_openexr() {
   fi
 }
 
+# need_cross_compiler TARGET: sets CROSS, CMake's options that build for TARGET, a system and a processor as
+# lobelight.gdextension names them.
+need_cross_compiler() {
+  local folder
+  folder=$CACHE/zig/$(content_hash "$ROOT/tools/setup/zig.sh" "$ROOT/tools/setup/zig.txt")
+  if [[ ! -f $folder/complete ]]; then
+    need_python ""
+    locked "$CACHE/lock/zig" bash "$ROOT/tools/setup/zig.sh" "$folder"
+  fi
+  ZIG_FOLDER=$folder/ziglang
+  CROSS=("-DCMAKE_TOOLCHAIN_FILE=$ROOT/gdextension/cmake/Zig.cmake" "-DLOBELIGHT_ZIG=$ZIG_FOLDER/zig"
+    "-DLOBELIGHT_TARGET=$1")
+  # Zig keeps here what it has compiled of its own libraries.
+  export ZIG_GLOBAL_CACHE_DIR=$folder/cache ZIG_LOCAL_CACHE_DIR=$folder/cache
+}
+
+# need_cross TARGET: need_cross_compiler, and sets OPENEXR_DIR to OpenEXR and Imath for TARGET.
+need_cross() {
+  need_cross_compiler "$1"
+  OPENEXR_DIR=$CACHE/deps/openexr-$1-$(content_hash "$ROOT/tools/setup/openexr.sh" "$ROOT/tools/setup/zig.txt" \
+    "$ROOT/gdextension/cmake/Zig.cmake")
+  if [[ ! -f $OPENEXR_DIR/complete ]]; then
+    locked "$CACHE/lock/openexr-$1" bash "$ROOT/tools/setup/openexr.sh" "$OPENEXR_DIR" "$1"
+  fi
+}
+
+# cross_key: as library_key, for what need_cross has set OPENEXR_DIR to.
+cross_key() {
+  echo "$(fingerprint "$ROOT/gdextension" "$ROOT/addons/lobelight/doc_classes" \
+    "$ROOT/tools/setup/cross_library.sh") $OPENEXR_DIR"
+}
+
+# need_cross_library TARGET: the native library for TARGET, in build/libraries/TARGET.
+need_cross_library() {
+  need_packages
+  need_cross "$1"
+  if ! stamp_is "$ROOT/build/libraries/$1/key" "$(cross_key)"; then
+    locked "$ROOT/build/lock" bash "$ROOT/tools/setup/cross_library.sh" "$1"
+  fi
+}
+
 # library_key: what the native library is built from. Changes when a source, the recipe or OpenEXR does.
 library_key() {
   echo "$(fingerprint "$ROOT/gdextension" "$ROOT/addons/lobelight/doc_classes" \

@@ -12,6 +12,14 @@ SOURCES = [
     ("OpenJPH, in OpenEXR", "openexr-{OPENEXR_VERSION}.tar.gz", "external/OpenJPH/LICENSE"),
     ("Imath", "imath_{IMATH_VERSION}.orig.tar.gz", "LICENSE.md"),
 ]
+# What Zig's compiler links beside it, below its folder: in libraries for other systems than the one that builds.
+FROM_ZIG = [
+    ("libc++", "lib/libcxx/LICENSE.TXT"),
+    ("libc++abi", "lib/libcxxabi/LICENSE.TXT"),
+    ("libunwind", "lib/libunwind/LICENSE.TXT"),
+    ("mingw-w64, in the libraries for Windows", "lib/libc/mingw/COPYING"),
+    ("Zig's own compiler-rt", "LICENSE"),
+]
 # GLM is a system package, of headers only.
 GLM_FILES = ["/usr/share/doc/libglm-dev/copyright", "/usr/local/share/doc/libglm-dev/copyright"]
 INTERFACE_HEADER = "gdextension/binding/include/gdextension_interface.h"
@@ -22,12 +30,15 @@ class LicenceError(Exception):
     """Says in one sentence which licence could not be found."""
 
 
-def collect(downloads, root):
-    """One text with every licence. `downloads` is the folder that holds the archives, `root` the repository."""
+def collect(downloads, root, zig):
+    """One text with every licence. `downloads` is the folder that holds the archives, `root` the repository, `zig` the
+    folder of the compiler that built for every desktop, or None where this machine's own did."""
     parts = [("Lobelight", (root / "LICENSE").read_text(encoding="utf-8"))]
     versions = dict(re.findall(r"^(\w+_VERSION)=(\S+)$", (root / SETUP).read_text(encoding="utf-8"), re.MULTILINE))
     parts += [(name, from_archive(downloads / archive.format(**versions), path)) for name, archive, path in SOURCES]
     parts.append(("GLM", first_text(GLM_FILES, "GLM")))
+    if zig is not None:
+        parts += [(name, read_licence(zig / path, name)) for name, path in FROM_ZIG]
     header = (root / INTERFACE_HEADER).read_text(encoding="utf-8")
     parts.append(("Godot Engine, its extension interface", comment_at_top(header)))
     blocks = [f"{RULE}\n{name}\n{RULE}\n\n{text.strip()}\n" for name, text in parts]
@@ -45,10 +56,16 @@ def from_archive(file, path):
             raise LicenceError(f"{file}: there is no {path} in it") from error
 
 
+def read_licence(file, name):
+    if not file.is_file():
+        raise LicenceError(f"the licence of {name} is not in {file}")
+    return file.read_text(encoding="utf-8")
+
+
 def first_text(candidates, name):
     for candidate in candidates:
         if pathlib.Path(candidate).is_file():
-            return pathlib.Path(candidate).read_text(encoding="utf-8")
+            return read_licence(pathlib.Path(candidate), name)
     raise LicenceError(f"the licence of {name} is not in {candidates[0]}")
 
 

@@ -9,6 +9,7 @@ import hashlib
 import json
 import os
 import pathlib
+import platform
 import re
 import sys
 import zipfile
@@ -18,6 +19,8 @@ import licences
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ADDON = pathlib.PurePosixPath("addons/lobelight")
 EXTENSION = "lobelight.gdextension"
+# A line of it that names a library: the features that it is for, the path below the addon.
+LIBRARY_LINE = re.compile(rf'^([\w.]+) = "res://{ADDON}/(bin/[^"]+)"$', re.MULTILINE)
 LICENCES = "bin/LICENCES.txt"
 PATTERNS = [
     "plugin.cfg",
@@ -54,12 +57,15 @@ def read_arguments(arguments):
     parser.add_argument("--out", default="")
     parser.add_argument("--json", default="")
     parser.add_argument("--all", action="store_true")
+    parser.add_argument("--targets", action="store_true", help="print what --all builds libraries for")
     parser.add_argument("--no-library", action="store_true")
+    parser.add_argument("--libraries", type=pathlib.Path, default=pathlib.Path(), help="folder with one for each target")
+    parser.add_argument("--zig", type=pathlib.Path, default=pathlib.Path(), help="folder of what built these")
     parser.add_argument("--downloads", type=pathlib.Path, default=pathlib.Path())
     parser.error = fail_with
     options = parser.parse_args(arguments)
-    if options.all:
-        raise PackageError("--all is not available yet: only the library for this machine can be built so far")
+    if options.all and options.no_library:
+        raise PackageError("--all packs every library, --no-library none: give one of them")
     here = pathlib.Path(os.environ.get("LOBELIGHT_CWD", "."))
     options.out = here / options.out if options.out else ROOT / "build/lobelight.zip"
     if options.out.suffix != ".zip":
@@ -91,19 +97,45 @@ def addon_files():
     return files
 
 
-def library_files():
-    """Paths below the addon, of the libraries that .gdextension names and that are there."""
+def targets():
+    """The system and processor of each library that .gdextension names, "linux.arm64", by its path below the addon."""
+    lines = LIBRARY_LINE.findall((ROOT / ADDON / EXTENSION).read_text(encoding="utf-8"))
+    return {name: ".".join([*features.split(".")[:1], *features.split(".")[-1:]]) for features, name in lines}
+
+
+def targets_of_others():
+    """What --all builds libraries for with a compiler for other systems: all but the system that this runs on."""
+    processor = platform.machine().lower()
+    processor = {"aarch64": "arm64", "amd64": "x86_64"}.get(processor, processor)
+    here = f"{platform.system().lower()}.{processor}"
+    return [target for target in targets().values() if target != here]
+
+
+def library_of_this_machine():
+    """Bytes by path below the addon, of the library that ./dev builds where .gdextension looks for it."""
     folder = ROOT / ADDON
-    named = re.findall(rf'"res://{ADDON}/(bin/[^"]+)"', (folder / EXTENSION).read_text(encoding="utf-8"))
-    return [name for name in named if (folder / name).is_file()]
+    return {name: (folder / name).read_bytes() for name in targets() if (folder / name).is_file()}
+
+
+def libraries_of_all(folder):
+    """Bytes by path below the addon, of every library that .gdextension names. `folder` holds a folder for each target,
+    but for the system that this runs on."""
+    libraries = library_of_this_machine()
+    for name, target in targets().items():
+        file = folder / target / pathlib.PurePosixPath(name).name
+        if name not in libraries and not file.is_file():
+            raise PackageError(f"{file} is missing")
+        if name not in libraries:
+            libraries[name] = file.read_bytes()
+    return {name: libraries[name] for name in targets()}
 
 
 def extension_text(libraries):
     """The .gdextension, bytes, that names no library which is not in the package."""
     lines = []
     for line in (ROOT / ADDON / EXTENSION).read_text(encoding="utf-8").splitlines():
-        name = re.search(rf'= "res://{ADDON}/(bin/[^"]+)"', line)
-        if name is None or name.group(1) in libraries:
+        name = LIBRARY_LINE.match(line)
+        if name is None or name.group(2) in libraries:
             lines.append(line)
     return ("\n".join(lines) + "\n").encode()
 
@@ -112,15 +144,19 @@ def contents(options):
     """Bytes by path below the addon."""
     folder = ROOT / ADDON
     files = {name: (folder / name).read_bytes() for name in addon_files()}
-    libraries = [] if options.no_library else library_files()
+    libraries = {}
+    if options.all:
+        libraries = libraries_of_all(options.libraries)
+    elif not options.no_library:
+        libraries = library_of_this_machine()
     if libraries:
-        files |= {name: (folder / name).read_bytes() for name in libraries}
+        files |= libraries
         files[EXTENSION] = extension_text(libraries)
         files[f"{EXTENSION}.uid"] = (folder / f"{EXTENSION}.uid").read_bytes()
-        files[LICENCES] = licences.collect(options.downloads, ROOT).encode()
+        files[LICENCES] = licences.collect(options.downloads, ROOT, options.zig if options.all else None).encode()
     elif not options.no_library:
         raise PackageError(f"{ADDON}/bin has no library; ./dev setup builds it, --no-library leaves it out")
-    return files, libraries
+    return files, list(libraries)
 
 
 def write_zip(out, files):
@@ -142,6 +178,9 @@ def write_zip(out, files):
 def main():
     try:
         options = read_arguments(sys.argv[1:])
+        if options.targets:
+            print(*targets_of_others(), sep="\n")
+            return 0
         if options.check:
             return 0
         files, libraries = contents(options)
@@ -159,7 +198,9 @@ def main():
         print(f"package: {error}", file=sys.stderr)
         return 1
     size = options.out.stat().st_size / 1e6
-    what = ", ".join(libraries) if libraries else "no native library"
+    what = "no native library"
+    if libraries:
+        what = ", ".join(f"{name} ({len(files[name]) / 1e6:.1f} MB)" for name in libraries)
     print(f"{options.out}: {len(files)} files, {size:.1f} MB, {what}, SHA-256 {digest}")
     return 0
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds static, position-independent OpenEXR and Imath from package sources into DIRECTORY: openexr.sh DIRECTORY
+# Builds static, position-independent OpenEXR and Imath from package sources: openexr.sh DIRECTORY [TARGET]
+# They are installed into DIRECTORY; with TARGET (windows.x86_64, …) they are not for this system but for that one.
 #
 # Static, because neither the engine nor a user's machine can be expected to have them. Hidden, so that they cannot
 # clash with another OpenEXR in the same process: "default visibility" drops their headers' export attributes, and
@@ -14,16 +15,26 @@ IMATH_REVISION=1
 IMATH_SUITE=trixie
 IMATH_SHA256=8a1bc258f3149b5729c2f4f8ffd337c0e57f09096e4ba9784329f40c4a9035da
 
-(($# == 1)) || die "openexr.sh takes the directory to install into"
+(($# == 1 || $# == 2)) || die "openexr.sh takes the directory to install into, and a system to build for"
 target=$1
+system=${2:-}
 [[ ! -f $target/complete ]] || exit 0
-
 downloads=$CACHE/downloads
 openexr_archive=$downloads/openexr-$OPENEXR_VERSION.tar.gz
 imath_archive=$downloads/imath_$IMATH_VERSION.orig.tar.gz
 work=$CACHE/deps/build.$$
 mkdir -p "$downloads" "$work"
 trap 'rm -rf "$work"' EXIT
+release=(-O2 -DNDEBUG)
+options=()
+if [[ -n $system ]]; then
+  need_cross_compiler "$system"
+  # Clang 20 wants another feature for the instructions of AVX-512 than these parts of libdeflate and OpenJPH name. The
+  # folder's name must not get into the library, whose bytes are to be equal from build to build.
+  release=(-DNDEBUG -DLIBDEFLATE_ASSEMBLER_DOES_NOT_SUPPORT_VPCLMULQDQ
+    -DLIBDEFLATE_ASSEMBLER_DOES_NOT_SUPPORT_AVX512VNNI "-ffile-prefix-map=$work=.")
+  options=("${CROSS[@]}" -DOJPH_DISABLE_AVX512=ON)
+fi
 
 # has_checksum FILE SHA256: a file that is there but differs is removed, so that it is fetched again.
 has_checksum() {
@@ -58,10 +69,11 @@ build() {
   mkdir "$work/$name"
   tar --extract --file "$archive" --directory "$work/$name" --strip-components 1
   cmake -S "$work/$name" -B "$work/$name-build" -G Ninja \
-    -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG" "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" \
+    -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS_RELEASE=${release[*]}" "-DCMAKE_CXX_FLAGS_RELEASE=${release[*]}" \
     -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF \
     -DCMAKE_C_VISIBILITY_PRESET=hidden -DCMAKE_CXX_VISIBILITY_PRESET=hidden -DCMAKE_VISIBILITY_INLINES_HIDDEN=ON \
-    -DCMAKE_INSTALL_PREFIX="$target" -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_PREFIX_PATH="$work/installed$target" "$@"
+    -DCMAKE_INSTALL_PREFIX="$target" -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_PREFIX_PATH="$work/installed$target" \
+    "${options[@]}" "$@"
   cmake --build "$work/$name-build" --parallel "$JOBS"
   DESTDIR="$work/installed" cmake --install "$work/$name-build"
 }
@@ -85,8 +97,8 @@ has_checksum "$openexr_archive" "$OPENEXR_SHA256" \
 has_checksum "$imath_archive" "$IMATH_SHA256" \
   || step --advice "$offline $IMATH_SHA256, at $imath_archive." "Fetching the source of Imath $IMATH_VERSION" \
     fetch_imath
-step "Building Imath $IMATH_VERSION" build_imath
-step "Building OpenEXR $OPENEXR_VERSION" build_openexr
+step "Building Imath $IMATH_VERSION${system:+ for $system}" build_imath
+step "Building OpenEXR $OPENEXR_VERSION${system:+ for $system}" build_openexr
 
 rm -rf "$target"
 mkdir -p "$(dirname "$target")"

@@ -126,6 +126,8 @@ run_export() {
   run_suites export-diet tests/diet in_time godot_headless
   run_logged export-pictures in_time bash "$ROOT/tools/commands/diet.sh" --acceptance
   judge export-pictures
+  run_logged export-libraries in_time "$PYTHON" "$ROOT/tests/commands/package_tool_test.py"
+  judge export-libraries
   run_logged export-package in_time bash "$ROOT/tests/commands/package_test.sh"
   judge export-package
   run_logged export-android in_time bash "$ROOT/tools/commands/android.sh" --pack-only --out "$RESULTS/android"

@@ -24,6 +24,15 @@ std::vector<Simd> usable_simd();
 #define LOBELIGHT_SIMD_VARIANTS 0
 #endif
 
+// What a function for Simd::avx512 is compiled for. Clang 18 to 21 have a feature of its own for
+// the 512-bit registers; where a compiler built on them leaves it out by default, as Zig 0.15 does,
+// they cannot compile shifts of eight integers.
+#if defined(__clang__) && __clang_major__ >= 18 && __clang_major__ <= 21
+#define LOBELIGHT_AVX512 "avx512f,avx512dq,evex512"
+#else
+#define LOBELIGHT_AVX512 "avx512f,avx512dq"
+#endif
+
 // For the body that all variants share: it must be inlined into each of them.
 #if defined(__GNUC__)
 #define LOBELIGHT_ALWAYS_INLINE inline __attribute__((always_inline))

@@ -122,8 +122,8 @@ __attribute__((target("avx2"))) double pass_avx2(const EmNodes& nodes, EmWorkspa
   return work_on_all<4>(nodes, workspace);
 }
 
-__attribute__((target("avx512f,avx512dq"))) double pass_avx512(const EmNodes& nodes,
-                                                               EmWorkspace& workspace) {
+__attribute__((target(LOBELIGHT_AVX512))) double pass_avx512(const EmNodes& nodes,
+                                                             EmWorkspace& workspace) {
   return work_on_all<8>(nodes, workspace);
 }
 #endif

@@ -17,12 +17,9 @@ class Callable : public subset::Builtin<GDEXTENSION_VARIANT_TYPE_CALLABLE, 16> {
   Callable(Object* object, const StringName& method);
 
   // Runs the method on the main thread, when the engine next flushes its message queue. May be
-  // called from any thread.
+  // called from any thread. Defined in variant.hpp.
   template <class... Arguments>
-  void call_deferred(const Arguments&... arguments) const {
-    const Variant values[] = {Variant(arguments)..., Variant()};
-    call_deferred_with(values, sizeof...(Arguments));
-  }
+  void call_deferred(const Arguments&... arguments) const;
 
  private:
   void call_deferred_with(const Variant* arguments, std::size_t count) const;

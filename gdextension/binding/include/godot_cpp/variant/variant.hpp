@@ -129,4 +129,10 @@ class Variant {
   alignas(8) mutable std::uint8_t opaque_[SIZE];
 };
 
+template <class... Arguments>
+void Callable::call_deferred(const Arguments&... arguments) const {
+  const Variant values[] = {Variant(arguments)..., Variant()};
+  call_deferred_with(values, sizeof...(Arguments));
+}
+
 }  // namespace godot
