@@ -1,0 +1,84 @@
+@tool
+extends RefCounted
+## Goes on from the brushed sphere: the report of the scene, and a table for its material.
+
+const Finder := preload("finder.gd")
+const Mouse := preload("mouse.gd")
+const SphereWalk := preload("sphere_walk.gd")
+
+# Of a tenth of a second: a reference takes its time on a busy machine.
+const _TURNS := 3000
+
+var _mouse: Mouse
+var _take: Callable
+var _root: Window = EditorInterface.get_base_control().get_window()
+
+
+func _init(mouse: Mouse, take: Callable) -> void:
+	_mouse = mouse
+	_take = take
+
+
+func go() -> void:
+	await _report()
+	await SphereWalk.unfold(_mouse, "BRDF")
+	await SphereWalk.choose_resource(_mouse, &"table", "LobeTable")
+	await _mouse.click(Finder.button(Finder.property(&"table"), ""), "the table")
+	await _mouse.wait(1.0)
+	await _bake()
+	await _see()
+
+
+func _report() -> void:
+	await SphereWalk.open_menu(_mouse, "Project")
+	var tools := await _mouse.open_submenu(await _mouse.find_menu(_root, "Tools"), "Tools")
+	var ours := await _mouse.open_submenu(tools, "Lobelight")
+	await _mouse.choose_from(ours, "Report What This Scene Uses …")
+	await _mouse.wait(0.5)
+	await _take.call("8_report")
+	await _mouse.click(Finder.button(_find_menu(), "OK"), "OK")
+
+
+# Its dialogs are below it.
+func _find_menu() -> Node:
+	return Finder.of_script(_root, "tools_menu.gd")
+
+
+func _bake() -> void:
+	var inspector := EditorInterface.get_inspector()
+	var panel := Finder.of_script(inspector, "bake_panel.gd")
+	var presets := Finder.button(panel, "Preset …")
+	await _mouse.scroll_to(inspector, presets)
+	await _mouse.click(presets, "Preset …")
+	await _mouse.choose(_root, "Brushed steel")
+	var bake := Finder.button(panel, "Bake")
+	await _mouse.scroll_to(inspector, bake)
+	await _mouse.click(bake, "Bake")
+	var dialog: Window = Finder.of_script(_root, "bake_dialog.gd")
+	await _wait_until(func() -> bool: return dialog.visible, "the dialog of the bake")
+	await _take.call("5_bake")
+	await _mouse.click(Finder.button(dialog, "Cancel Bake"), "Cancel Bake")
+	await _wait_until(func() -> bool: return not dialog.visible, "the end of the bake")
+	await _mouse.wait(0.5)
+	var table: LobeTable = panel.get("table")
+	if table.lobe_count != 0:
+		_mouse.fail("the bake is not cancelled")
+	await _mouse.click(bake, "Bake")
+	await _wait_until(func() -> bool: return table.lobe_count == 16, "the baked table")
+
+
+func _see() -> void:
+	await _mouse.wait(1.0)
+	var inspector := EditorInterface.get_inspector()
+	var compare := Finder.button(inspector, "Compare with Reference")
+	await _mouse.scroll_to(inspector, compare)
+	await _mouse.wait(1.0)
+	await _take.call("6_baked")
+
+
+func _wait_until(condition: Callable, what: String) -> void:
+	for turn in _TURNS:
+		if condition.call():
+			return
+		await _mouse.wait(0.1)
+	_mouse.fail(what + " does not come")
