@@ -73,6 +73,11 @@ func _see() -> void:
 	var compare := Finder.button(inspector, "Compare with Reference")
 	await _mouse.scroll_to(inspector, compare)
 	await _mouse.wait(1.0)
+	await _mouse.click(compare, "Compare with Reference")
+	var spheres := Finder.of_script(inspector, "sphere_comparison.gd")
+	await _wait_until(
+		func() -> bool: return "dB" in (spheres.call("get_status") as String), "the reference"
+	)
 	await _take.call("6_baked")
 
 

@@ -135,6 +135,8 @@ func _show_reference(pixels: PackedFloat32Array) -> void:
 	_light.energy = exposure
 	_sphere.set_light(_light)
 	for frame in 2:
+		# The editor draws a frame only where something has changed.
+		queue_redraw()
 		await RenderingServer.frame_post_draw
 	if not is_inside_tree():
 		return
