@@ -6,6 +6,7 @@ extends Node3D
 signal changed
 
 const CapturedSky := preload("studio/captured_sky.gdshader")
+const PanoramaSky := preload("panorama_sky.gdshader")
 const CompareView := preload("compare/compare_view.gd")
 const DemoObject := preload("demo_object.gd")
 const DemoTables := preload("demo_tables.gd")
@@ -114,6 +115,10 @@ func _ready() -> void:
 	_show_methods()
 
 
+static func is_compatibility() -> bool:
+	return RenderingServer.get_current_rendering_method() == "gl_compatibility"
+
+
 ## Whether the environment is the studio.
 func is_live() -> bool:
 	return settings[environment_index].panorama == null
@@ -197,7 +202,7 @@ func _show_environment() -> void:
 		# In Compatibility a face is read back at a time, which is enough for one frame.
 		_light.update_mode = (
 			LobeEnvironment3D.UpdateMode.TIME_SLICED
-			if RenderingServer.get_current_rendering_method() == "gl_compatibility"
+			if is_compatibility()
 			else LobeEnvironment3D.UpdateMode.EVERY_FRAME
 		)
 	else:
@@ -255,16 +260,19 @@ func _show_stock_light() -> void:
 	)
 
 
-func _panorama_sky() -> PanoramaSkyMaterial:
-	var sky_material := PanoramaSkyMaterial.new()
-	sky_material.panorama = settings[environment_index].panorama
-	return sky_material
+func _panorama_sky() -> ShaderMaterial:
+	return _make_sky(PanoramaSky, &"panorama", settings[environment_index].panorama)
 
 
 func _captured_sky() -> ShaderMaterial:
+	return _make_sky(CapturedSky, &"captured", _light.get_cubemap())
+
+
+func _make_sky(shader: Shader, parameter: StringName, map: Texture) -> ShaderMaterial:
 	var sky_material := ShaderMaterial.new()
-	sky_material.shader = CapturedSky
-	sky_material.set_shader_parameter(&"captured", _light.get_cubemap())
+	sky_material.shader = shader
+	sky_material.set_shader_parameter(parameter, map)
+	sky_material.set_shader_parameter(&"is_srgb", is_compatibility())
 	return sky_material
 
 

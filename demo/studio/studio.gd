@@ -6,7 +6,8 @@ const Layers := preload("../layers.gd")
 ## Seconds in which the lamp goes round once.
 const PERIOD := 9.0
 const _LAMP_RADIUS := 0.42
-const _ORBIT := 4.2
+# So near and high that it is never between the camera and the objects.
+const _ORBIT := 2.9
 
 var _lamp: MeshInstance3D
 
@@ -30,7 +31,7 @@ func _ready() -> void:
 ## Where the lamp is on its orbit, in radians.
 func turn_lamp(angle: float) -> void:
 	if _lamp != null:
-		var height := 2.1 + 0.7 * sin(2.0 * angle)
+		var height := 3.0 + 0.4 * sin(2.0 * angle)
 		_lamp.position = Vector3(_ORBIT * sin(angle), height, _ORBIT * cos(angle))
 
 

@@ -93,6 +93,20 @@ func test_every_method_draws_every_environment() -> void:
 			pictures.append(picture)
 
 
+func test_the_engines_own_material_gets_as_much_light() -> void:
+	# The sunset's lamps are small; those of the others are beyond what the engine's maps hold.
+	_demo.environment_index = 1
+	var means: Array[float] = []
+	for method: int in [Methods.Method.OURS, Methods.Method.STOCK]:
+		_demo.left_method = method
+		var picture := await _draw()
+		var sum := 0.0
+		for index in _demo.objects.size():
+			sum += _mean(picture.get_region(Rect2i(_place_of(index).grow(-2.0))))
+		means.append(sum)
+	assert_float(means[1] / means[0]).is_between(0.65, 1.25)
+
+
 func test_objects_are_where_they_should_be() -> void:
 	for size: Vector2i in [LANDSCAPE, PORTRAIT]:
 		_view.size = size
