@@ -97,6 +97,7 @@ need_cross_compiler() {
     locked "$CACHE/lock/zig" bash "$ROOT/tools/setup/zig.sh" "$folder"
   fi
   ZIG_FOLDER=$folder/ziglang
+  # shellcheck disable=SC2034 # used by those who call this
   CROSS=("-DCMAKE_TOOLCHAIN_FILE=$ROOT/gdextension/cmake/Zig.cmake" "-DLOBELIGHT_ZIG=$ZIG_FOLDER/zig"
     "-DLOBELIGHT_TARGET=$1")
   # Zig keeps here what it has compiled of its own libraries.
