@@ -115,6 +115,10 @@ func _ready() -> void:
 	_show_methods()
 
 
+func _process(_delta: float) -> void:
+	_backdrop.global_position = camera.global_position
+
+
 static func is_compatibility() -> bool:
 	return RenderingServer.get_current_rendering_method() == "gl_compatibility"
 
@@ -226,7 +230,7 @@ func _turn_environment() -> void:
 		return
 	_light.rotation.y = turn + deg_to_rad(settings[environment_index].turn)
 	var shown: ShaderMaterial = _backdrop.material_override
-	shown.set_shader_parameter(&"environment_rotation", _light.global_basis.inverse())
+	shown.set_shader_parameter(&"turn", _light.rotation.y / TAU)
 	_world.sky_rotation = Vector3(0.0, _light.rotation.y, 0.0)
 
 
