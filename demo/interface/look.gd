@@ -5,22 +5,23 @@ extends Object
 const TOUCH := 44.0
 const ACCENT := Color(1.0, 0.74, 0.36)
 const TEXT := Color(0.93, 0.94, 0.96)
-const _FIELD := Color(1.0, 1.0, 1.0, 0.09)
-const _HOVER := Color(1.0, 1.0, 1.0, 0.17)
+# Opaque, since they lie on bright pictures too, and glass blends otherwise where 2D is linear.
+const _FIELD := Color(0.17, 0.18, 0.2)
+const _HOVER := Color(0.26, 0.27, 0.3)
 
 
 static func make_theme() -> Theme:
 	var theme := Theme.new()
 	theme.default_font_size = 15
 	theme.set_stylebox(
-		&"panel", &"PanelContainer", make_box(Color(0.05, 0.055, 0.07, 0.82), 14, 12)
+		&"panel", &"PanelContainer", make_box(Color(0.05, 0.055, 0.07, 0.94), 14, 12)
 	)
 	for type: StringName in [&"Button", &"OptionButton", &"CheckButton"]:
 		theme.set_stylebox(&"normal", type, make_box(_FIELD, 8, 10))
 		theme.set_stylebox(&"hover", type, make_box(_HOVER, 8, 10))
 		theme.set_stylebox(&"pressed", type, make_box(_HOVER, 8, 10))
 		theme.set_stylebox(&"hover_pressed", type, make_box(_HOVER, 8, 10))
-		theme.set_stylebox(&"disabled", type, make_box(Color(1.0, 1.0, 1.0, 0.04), 8, 10))
+		theme.set_stylebox(&"disabled", type, make_box(Color(0.11, 0.115, 0.13), 8, 10))
 		theme.set_stylebox(&"focus", type, _make_frame())
 		theme.set_color(&"font_color", type, TEXT)
 		theme.set_color(&"font_pressed_color", type, ACCENT)
