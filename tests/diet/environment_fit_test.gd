@@ -56,7 +56,7 @@ func test_a_scene_is_exported_with_the_size() -> void:
 	assert_int(diet.fit.size).is_greater(0)
 	var file := "user://diet_scene.scn"
 	var written := FileAccess.open(file, FileAccess.WRITE)
-	written.store_buffer(diet.fit.make_scene(path))
+	written.store_buffer(diet.edit(path))
 	written.close()
 	var scene: Node = auto_free((load(file) as PackedScene).instantiate())
 	DirAccess.remove_absolute(file)
@@ -64,4 +64,4 @@ func test_a_scene_is_exported_with_the_size() -> void:
 	assert_int(environment.size).is_equal(diet.fit.size)
 	assert_int(environment.source).is_equal(LobeEnvironment3D.Source.PANORAMA)
 	assert_str(environment.panorama.resource_path).ends_with("forest.exr")
-	assert_int(diet.fit.make_scene("res://tests/diet/scenes/everything.tscn").size()).is_equal(0)
+	assert_int(diet.edit("res://tests/diet/scenes/everything.tscn").size()).is_equal(0)

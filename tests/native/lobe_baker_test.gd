@@ -280,8 +280,14 @@ func test_auto_says_what_it_cannot_do() -> void:
 	var coarse := {"alpha": 0.1, "lobes": "auto", "target": 46.0, "views": [2, 1]}
 	var message: String = LobeBaker.new().bake(coarse).get("error", "")
 	assert_str(message).contains("The target of 46 dB is out of reach with up to 32 lobes")
+	var few := {"alpha": 0.2, "lobes": "auto", "target": 45.0, "max_lobes": 2}
+	message = LobeBaker.new().bake(few).get("error", "")
+	assert_str(message).contains("out of reach with up to 2 lobes")
 	for wrong: Array in [
 		[{"lobes": "auto", "target": 60}, "target is 60"],
+		[{"lobes": "auto", "max_lobes": 0}, "max_lobes is 0, but must be from 1 to 32."],
+		[{"lobes": "auto", "max_lobes": 33}, "max_lobes is 33"],
+		[{"lobes": 8, "max_lobes": 8}, 'max_lobes goes with lobes "auto" only.'],
 		[{"lobes": "auto", "refine": true}, 'refine is true, but "auto"'],
 		[{"lobes": "auto", "target": "good"}, 'target is "good" (String)'],
 		[{"lobes": "auto", "environments": "hall.exr"}, "an Array of Strings"],

@@ -4,11 +4,12 @@ source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 usage() {
   cat <<USAGE
-usage: ./dev diet SCENE|PROJECT [--json FILE]
+usage: ./dev diet SCENE|PROJECT [--target DB] [--json FILE]
        ./dev diet --acceptance [--instructions] [--out DIR] [--json FILE]
 
 SCENE           a .tscn or .scn with all that it depends on
 PROJECT         a folder with a project.godot and this addon: all its files
+--target DB     materials get the fewest lobes that have this PSNR, as with the preset's "Lobelight > Target Psnr"
 --json FILE     the same as numbers
 --acceptance    exports five scenes with all of the addon and with what they need of it, and compares their pictures
 --instructions  also counts what phones' GPUs execute a pixel, as ./dev mobile-cost does (fetches compilers once)
@@ -18,7 +19,8 @@ Exports leave out sets of tables that nothing uses, and of the others the tables
 preset's option "Lobelight > Cut Tables" turns that off. This says what they would do. Scenes and resources are looked
 through; numbers that scripts assign to roughness, anisotropy and the clear coat's count; what else scripts do with
 them is not known, and then all widths stay, unless the root of a scene says what its scripts reach, by the metadata
-"lobelight_reach": {"roughness": [0.2, 0.5], "anisotropy": [0.0, 0.9]}.
+"lobelight_reach": {"roughness": [0.2, 0.5], "anisotropy": [0.0, 0.9]}. Only materials whose widths no script changes can
+get fewer lobes; the metadata "lobelight_fixed": true of a material says so of it.
 USAGE
 }
 
@@ -27,12 +29,18 @@ subject=""
 json=""
 acceptance=false
 options=()
+target=""
 while (($# > 0)); do
   case $1 in
     --json | --out)
       [[ -n ${2:-} ]] || die "diet: $1 needs a value"
       path=$(realpath -m -- "$2")
       if [[ $1 == --json ]]; then json=$path; else options+=(--out "$path"); fi
+      shift
+      ;;
+    --target)
+      [[ ${2:-} =~ ^[0-9]+(\.[0-9]+)?$ ]] || die "diet: --target needs a number of decibels, not '${2:-}'"
+      target=$2
       shift
       ;;
     --acceptance) acceptance=true ;;
@@ -48,6 +56,7 @@ done
 [[ -z $json || -d $(dirname -- "$json") ]] || die "diet: $json: its folder does not exist"
 
 if $acceptance; then
+  [[ -z $target ]] || die "diet: --target goes with a scene or a project"
   [[ -z $subject ]] || die "diet: --acceptance has its own scenes, '$subject' is one too many"
   need_engine
   need_python accuracy
@@ -78,12 +87,14 @@ if [[ -f $subject ]]; then
 elif [[ $subject != "$project" ]]; then
   die "diet: $subject has no project.godot"
 fi
+[[ -z $target ]] || arguments+=(--target "$target")
 [[ -z $json ]] || arguments+=(--json "$json")
 script=addons/lobelight/editor/export/diet_command.gd
 [[ -f $project/$script ]] || die "diet: $project does not have this addon in addons/lobelight"
 
 need_engine
 if [[ $project -ef $ROOT ]]; then
+  [[ -z $target ]] || need_library
   need_import
 elif [[ ! -f $project/.godot/global_script_class_cache.cfg ]]; then
   die "diet: $project has not been opened in the editor yet"

@@ -58,6 +58,7 @@ LobeCountRequest read_count_request(const Request& request, const Recipe& recipe
   }
   count.recipe = recipe;
   count.target = request.real("target", count.target);
+  count.max_lobes = request.integer("max_lobes", count.max_lobes);
   for (const std::string& path : request.texts("environments")) {
     count.environments.push_back(file_system_path(to_godot(path)));
   }
@@ -212,14 +213,14 @@ LobeTask::Work LobeBaker::prepare(const Dictionary& recipe) const {
   }
   const Request request(recipe, "a recipe",
                         {"brdf", "alpha", "lobes", "views", "method", "refine", "seed", "threads",
-                         "target", "environments"});
+                         "target", "max_lobes", "environments"});
   const Recipe read = read_recipe(request);
   if (asks_for_count(request)) {
     return [count = read_count_request(request, read)](Progress& progress) {
       return bake_enough_lobes(count, progress);
     };
   }
-  for (const char* key : {"target", "environments"}) {
+  for (const char* key : {"target", "max_lobes", "environments"}) {
     if (request.has(key)) {
       throw std::invalid_argument(std::string(key) + " goes with lobes \"auto\" only.");
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -40,6 +41,12 @@ void validate(const LobeCountRequest& request) {
                   request.target, kMaxTarget);
     throw std::invalid_argument(text);
   }
+  if (request.max_lobes < 1 || request.max_lobes > kMaxLobes) {
+    char text[96];
+    std::snprintf(text, sizeof text, "max_lobes is %d, but must be from 1 to %d.",
+                  request.max_lobes, kMaxLobes);
+    throw std::invalid_argument(text);
+  }
 }
 
 LobeCount find_lobe_count(const LobeCountRequest& request, const Brdf& brdf, Progress& progress) {
@@ -64,9 +71,13 @@ LobeCount find_lobe_count(const LobeCountRequest& request, const Brdf& brdf, Pro
                  static_cast<double>(panoramas.size()));
   }
 
+  const auto tried_at_most =
+      std::upper_bound(std::begin(kCounts), std::end(kCounts), request.max_lobes) -
+      std::begin(kCounts);
   std::vector<LobeCountTrial> trials;
   LobeCountTrial best;
   for (const int lobes : kCounts) {
+    if (lobes > request.max_lobes) break;
     Recipe recipe = request.recipe;
     recipe.lobes = lobes;
     progress.throw_if_cancelled();
@@ -86,13 +97,13 @@ LobeCount find_lobe_count(const LobeCountRequest& request, const Brdf& brdf, Pro
       return {std::move(table), std::move(report), std::move(trials)};
     }
     progress.set(kReferenceShare + (1.0 - kReferenceShare) * static_cast<double>(trials.size()) /
-                                       static_cast<double>(std::size(kCounts)));
+                                       static_cast<double>(tried_at_most));
   }
   char text[160];
   std::snprintf(
       text, sizeof text,
       "The target of %.4g dB is out of reach with up to %d lobes; the best are %d with %.1f dB.",
-      request.target, kMaxLobes, best.lobes, best.psnr);
+      request.target, request.max_lobes, best.lobes, best.psnr);
   throw std::runtime_error(text);
 }
 

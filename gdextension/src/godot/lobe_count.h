@@ -13,6 +13,7 @@ namespace lobelight {
 struct LobeCountRequest {
   Recipe recipe;                          // its `lobes` counts for nothing
   double target = 30.0;                   // dB
+  int max_lobes = kMaxLobes;              // what is tried at most
   std::vector<std::string> environments;  // panoramas' paths, beside the synthetic one
 };
 
@@ -31,10 +32,11 @@ struct LobeCount {
 // Throws std::invalid_argument with one sentence.
 void validate(const LobeCountRequest& request);
 
-// Fits tables of 1, 2, 3, 4, 6, 8, 12, 16, 24 and 32 lobes until one reaches the target in every
-// environment. A table's error is that of a sphere as ./dev compare measures it, each lobe being
-// given the light under it exactly: what the table loses, not what the run time's pyramid adds.
-// Throws std::runtime_error with one sentence where 32 lobes do not do, ImageError and Cancelled.
+// Fits tables of 1, 2, 3, 4, 6, 8, 12, 16, 24 and 32 lobes, as far as max_lobes goes, until one
+// reaches the target in every environment. A table's error is that of a sphere as ./dev compare
+// measures it, each lobe being given the light under it exactly: what the table loses, not what the
+// run time's pyramid adds. Throws std::runtime_error with one sentence where max_lobes do not do,
+// ImageError and Cancelled.
 LobeCount find_lobe_count(const LobeCountRequest& request, const Brdf& brdf, Progress& progress);
 
 }  // namespace lobelight

@@ -5,10 +5,13 @@ extends RefCounted
 const CodeFiles := preload("code_files.gd")
 const EnvironmentFit := preload("environment_fit.gd")
 const FileBytes := preload("file_bytes.gd")
+const LobeReduction := preload("lobe_reduction.gd")
 const Reach := preload("reach.gd")
 const SetCut := preload("set_cut.gd")
 const SetReach := preload("set_reach.gd")
 
+## Where exports have the files that stand in for others.
+const EDITED := LobeReduction.ReducedTable.FOLDER
 const NAMED_USERS := 3
 
 
@@ -34,14 +37,17 @@ class Share:
 var shares: Dictionary[String, Share] = {}
 var code: CodeFiles
 var fit: EnvironmentFit
+var lobes: LobeReduction
 var material_count := 0
 
 
-## What the files that are exported need.
-static func of_files(files: PackedStringArray) -> RefCounted:
+## What the files that are exported need. With a [param target], in dB, materials get the fewest
+## lobes that reach it, which takes a while.
+static func of_files(files: PackedStringArray, target := 0.0) -> RefCounted:
 	var diet := new()
-	var reach := Reach.of_files(files)
+	var reach := Reach.of_files(files, target)
 	diet.material_count = reach.material_count
+	diet.lobes = reach.lobes
 	diet.code = CodeFiles.of_files(files, reach.features)
 	diet.fit = EnvironmentFit.of(reach.features.environments, reach.sets, reach.own_tables)
 	for name in DirAccess.get_files_at(Reach.TABLES):
@@ -81,11 +87,26 @@ static func _share_of(path: String, reach: SetReach) -> Share:
 	return share
 
 
+## What is exported in place of a scene or a resource; empty if it goes along as it is.
+func edit(path: String) -> PackedByteArray:
+	if not lobes.files.has(path) and not fit.has_environment(path):
+		return PackedByteArray()
+	var resource := ResourceLoader.load(path, "", ResourceLoader.CACHE_MODE_IGNORE)
+	var is_changed := lobes.edit(resource)
+	var packed := resource as PackedScene
+	if packed != null and fit.has_environment(path):
+		is_changed = fit.edit(packed) or is_changed
+	if not is_changed:
+		return PackedByteArray()
+	return FileBytes.of(resource, "scn" if packed != null else "res")
+
+
 ## One line for each set and for each file that is left out or empty, and the sum.
 func describe() -> PackedStringArray:
 	var lines: PackedStringArray = []
 	for share: Share in shares.values():
 		lines.append(share.describe())
+	lines.append_array(lobes.describe())
 	for path in code.files:
 		var file := code.files[path]
 		if file.after < file.before and not file.why.begins_with("without"):
@@ -113,6 +134,10 @@ func to_dictionary() -> Dictionary:
 		before += share.before
 		after += share.after
 		tables.append(_entry(path, share.before, share.after, share.why))
+	for reduced: LobeReduction.ReducedTable in lobes.tables.values():
+		var size := reduced.get_bytes().size()
+		after += size
+		tables.append(_entry(reduced.get_path(), 0, size, reduced.get_reason()))
 	var files: Array[Dictionary] = []
 	for path in code.files:
 		var file := code.files[path]
@@ -124,6 +149,8 @@ func to_dictionary() -> Dictionary:
 		"run_time": code.get_size_after(),
 		"environment_size": fit.size,
 		"environment_size_why": fit.why,
+		"lobes": lobes.to_dictionaries(),
+		"lobes_kept": lobes.kept,
 		"tables": tables,
 		"files": files,
 	}

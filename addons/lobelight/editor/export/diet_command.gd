@@ -1,16 +1,16 @@
 extends SceneTree
 ## Reports what an export takes along of the addon's tables: [code]--script …/diet_command.gd --
-## [--scene res://X.tscn] [--json FILE][/code]. For [code]./dev diet[/code].
+## [--scene res://X.tscn] [--target DB] [--json FILE][/code]. For [code]./dev diet[/code].
 
 const Diet := preload("diet.gd")
+const FileBytes := preload("file_bytes.gd")
 const ProjectFiles := preload("project_files.gd")
 
 
 func _initialize() -> void:
 	var scene := _argument("--scene")
-	var diet := Diet.of_files(
-		ProjectFiles.of_project() if scene.is_empty() else ProjectFiles.of_scene(scene)
-	)
+	var files := ProjectFiles.of_project() if scene.is_empty() else ProjectFiles.of_scene(scene)
+	var diet := Diet.of_files(files, _argument("--target").to_float())
 	print("\n".join(diet.describe()))
 	quit(0 if _write(_argument("--json"), diet.to_dictionary()) else 1)
 
@@ -24,10 +24,8 @@ static func _argument(name: String) -> String:
 static func _write(path: String, report: Dictionary) -> bool:
 	if path.is_empty():
 		return true
-	var part := path + ".part"
-	var file := FileAccess.open(part, FileAccess.WRITE)
-	if file == null or not file.store_string(JSON.stringify(report, "  ", false) + "\n"):
-		printerr("diet: %s: cannot be written" % path)
-		return false
-	file.close()
-	return DirAccess.rename_absolute(part, path) == OK
+	var text := JSON.stringify(report, "  ", false) + "\n"
+	if FileBytes.write(path, text.to_utf8_buffer()):
+		return true
+	printerr("diet: %s: cannot be written" % path)
+	return false

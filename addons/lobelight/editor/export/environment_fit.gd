@@ -9,7 +9,6 @@ extends RefCounted
 ## A table has log2(κ (o·h)) and V = (o·h) / κ' with κ' = 2^that. The view is taken to be up to 75
 ## degrees off the normal.
 
-const FileBytes := preload("file_bytes.gd")
 const Pyramid := preload("../../runtime/pyramid.gd")
 const SetReach := preload("set_reach.gd")
 
@@ -55,19 +54,19 @@ func get_size_for(environment: LobeEnvironment3D) -> int:
 	return size if size < most else 0
 
 
-## A scene whose environments have the size that they need, as bytes of a .scn file; empty if it is
-## to be exported as it is. Not by the engine's own way to change scenes (_customize_scene), which
-## loads every file of the project and complains about those that are no resources.
-func make_scene(path: String) -> PackedByteArray:
-	if size == 0 or not _automatic.any(func(entry: Array) -> bool: return entry[0] == path):
-		return PackedByteArray()
-	var packed: PackedScene = ResourceLoader.load(path, "", ResourceLoader.CACHE_MODE_IGNORE)
+## Whether a scene has environments that may be resized.
+func has_environment(path: String) -> bool:
+	return size > 0 and _automatic.any(func(entry: Array) -> bool: return entry[0] == path)
+
+
+## Gives the environments in a scene the size that they need. Returns whether any was changed. Not
+## by the engine's own way to change scenes (_customize_scene), which loads every file of the
+## project and complains about those that are no resources.
+func edit(packed: PackedScene) -> bool:
 	var scene := packed.instantiate(PackedScene.GEN_EDIT_STATE_INSTANCE)
-	var bytes := PackedByteArray()
-	if _resize(scene) and packed.pack(scene) == OK:
-		bytes = FileBytes.of(packed, "scn")
+	var is_changed := _resize(scene) and packed.pack(scene) == OK
 	scene.free()
-	return bytes
+	return is_changed
 
 
 func _resize(scene: Node) -> bool:

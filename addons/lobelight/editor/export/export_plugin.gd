@@ -6,7 +6,8 @@ extends EditorExportPlugin
 ## Of the ready tables and of the run time it exports what the project can reach, prints what it
 ## did, and keeps a report in the project's data folder. The preset's option "lobelight/cut_tables"
 ## turns that off. Environments of automatic size get the size that the sharpest lobe needs, unless
-## "lobelight/fit_environments" is off.
+## "lobelight/fit_environments" is off. With a "lobelight/target_psnr", materials get the fewest
+## lobes that reach it.
 
 const Diet := preload("diet.gd")
 const ExtensionList := preload("extension_list.gd")
@@ -19,6 +20,7 @@ const EDITOR_ONLY: PackedStringArray = ["editor/", "bin/", "doc_classes/", "icon
 const TABLE_CHOICE := "res://addons/lobelight/runtime/table_choice.gd"
 const CUT_TABLES := "lobelight/cut_tables"
 const FIT_ENVIRONMENTS := "lobelight/fit_environments"
+const TARGET_PSNR := "lobelight/target_psnr"
 const REPORT := "res://.godot/lobelight_export.json"
 
 var _extension_list := ExtensionList.new()
@@ -37,6 +39,13 @@ func _get_export_options(_platform: EditorExportPlatform) -> Array[Dictionary]:
 	var options: Array[Dictionary] = []
 	for name: String in [CUT_TABLES, FIT_ENVIRONMENTS]:
 		options.append({"option": {"name": name, "type": TYPE_BOOL}, "default_value": true})
+	var target := {
+		"name": TARGET_PSNR,
+		"type": TYPE_FLOAT,
+		"hint": PROPERTY_HINT_RANGE,
+		"hint_string": "0,46,0.5,suffix:dB",
+	}
+	options.append({"option": target, "default_value": 0.0})
 	return options
 
 
@@ -47,17 +56,21 @@ func _export_begin(
 	_done.clear()
 	_diet = null
 	if get_option(CUT_TABLES) != false:
-		_diet = Diet.of_files(ProjectFiles.of_preset(get_export_preset()))
+		var target: float = get_option(TARGET_PSNR)
+		_diet = Diet.of_files(ProjectFiles.of_preset(get_export_preset()), target)
 		if get_option(FIT_ENVIRONMENTS) == false:
 			_diet.fit.size = 0
 			_diet.fit.why = "the preset says so"
+		for reduced: Diet.LobeReduction.ReducedTable in _diet.lobes.tables.values():
+			add_file(reduced.get_path(), reduced.get_bytes(), false)
 
 
 func _export_file(path: String, type: String, _features: PackedStringArray) -> void:
-	if type == "PackedScene" and _diet != null:
-		var scene := _diet.fit.make_scene(path)
-		if not scene.is_empty():
-			add_file("res://.godot/exported/lobelight/%s.scn" % path.md5_text(), scene, true)
+	if _diet != null:
+		var edited := _diet.edit(path)
+		if not edited.is_empty():
+			var name := path.md5_text() + (".scn" if type == "PackedScene" else ".res")
+			add_file(Diet.EDITED + name, edited, true)
 			return
 	if not path.begins_with(ADDON) or path == _project_icon():
 		return

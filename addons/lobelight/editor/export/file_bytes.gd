@@ -1,9 +1,10 @@
 @tool
 extends RefCounted
-## A resource as the bytes of the file that the engine would save it in.
+## Files as bytes: resources as the engine would save them, and writing in one step.
 
 
-## Empty, and an error, if it cannot be saved. The ending says in which format.
+## A resource as a file's bytes; empty, and an error, if it cannot be saved. The ending says in
+## which format.
 static func of(resource: Resource, ending: String) -> PackedByteArray:
 	var name := "lobelight_%d.%s" % [OS.get_process_id(), ending]
 	var file := OS.get_temp_dir().path_join(name)
@@ -14,3 +15,13 @@ static func of(resource: Resource, ending: String) -> PackedByteArray:
 	var bytes := FileAccess.get_file_as_bytes(file)
 	DirAccess.remove_absolute(file)
 	return bytes
+
+
+## Writes a file, or leaves the one that is there as it is and returns false.
+static func write(path: String, bytes: PackedByteArray) -> bool:
+	var part := path + ".part"
+	var file := FileAccess.open(part, FileAccess.WRITE)
+	if file == null or not file.store_buffer(bytes):
+		return false
+	file.close()
+	return DirAccess.rename_absolute(part, path) == OK

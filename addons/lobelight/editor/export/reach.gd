@@ -9,6 +9,7 @@ extends RefCounted
 ## not known of them.
 
 const Features := preload("features.gd")
+const LobeReduction := preload("lobe_reduction.gd")
 const ProjectFiles := preload("project_files.gd")
 const SetReach := preload("set_reach.gd")
 const TableChoice := preload("../../runtime/table_choice.gd")
@@ -26,6 +27,8 @@ var material_count := 0
 var features := Features.new()
 ## Tables of materials that are of no set: [file, table].
 var own_tables: Array[Array] = []
+## Materials that draw fewer lobes than their sets have.
+var lobes := LobeReduction.new()
 
 # Each is [file, material].
 var _materials: Array[Array] = []
@@ -61,9 +64,11 @@ var _other_widths := RegEx.create_from_string(
 var _mentioned_set := RegEx.create_from_string("(\\w+)\\.res\\b")
 
 
-## What a list of files reaches. Files of this addon say nothing.
-static func of_files(files: PackedStringArray) -> RefCounted:
+## What a list of files reaches. Files of this addon say nothing. With a [param target], in dB,
+## materials get the fewest lobes that reach it.
+static func of_files(files: PackedStringArray, target := 0.0) -> RefCounted:
 	var reach := new()
+	reach.lobes.target = target
 	for file in files:
 		if not file.begins_with("res://addons/lobelight/"):
 			reach._read(file)
@@ -130,6 +135,8 @@ func _look_at(file: String, value: Variant) -> void:
 	elif resource is Animation:
 		_look_at_animation(file, resource)
 	else:
+		if resource is PanoramaSkyMaterial:
+			lobes.add_panorama((resource as PanoramaSkyMaterial).panorama)
 		for property in resource.get_property_list():
 			if property["usage"] & PROPERTY_USAGE_STORAGE:
 				_look_at(file, resource.get(property["name"]))
@@ -175,11 +182,21 @@ func _add_number(property: String, number: float) -> void:
 
 
 func _conclude() -> void:
-	for file in _made_by_script:
-		_materials.append([file, LobeMaterial3D.new()])
-	material_count = _materials.size()
+	material_count = _materials.size() + _made_by_script.size()
+	for environment in features.environments:
+		lobes.add_panorama((environment[1] as Dictionary).get("panorama"))
+	if _declared or not _unknown.is_empty() or not _numbers.is_empty():
+		lobes.why_none = (
+			"scripts or animations change widths, those of materials without the metadata %s"
+			% LobeReduction.FIXED
+		)
 	for entry in _materials:
-		_include(entry[0], entry[1])
+		if not lobes.reduce(entry[0], entry[1]):
+			_include(entry[0], entry[1])
+	for table: LobeReduction.ReducedTable in lobes.tables.values():
+		own_tables.append([table.users[0], table.table])
+	for file in _made_by_script:
+		_include(file, LobeMaterial3D.new())
 	for path in _named_sets:
 		var named := _get_set(path)
 		# The script may ask it for any table.
