@@ -160,6 +160,26 @@ func test_the_scene_is_exported_with_the_reduced_set() -> void:
 	DirAccess.remove_absolute(set_file)
 
 
+# In a file of its own, in a mesh's properties, and in its surfaces, which are a Dictionary.
+func test_materials_in_resources_are_exported_with_the_reduced_set() -> void:
+	var box := BoxMesh.new()
+	box.material = _material(0.35, 0.0)
+	var surfaces := ArrayMesh.new()
+	surfaces.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, BoxMesh.new().get_mesh_arrays())
+	surfaces.surface_set_material(0, _material(0.35, 0.0))
+	for resource: Resource in [_material(0.35, 0.0), box, surfaces]:
+		var file := "user://reduced_%s.tres" % resource.get_class()
+		ResourceSaver.save(resource, file)
+		var diet := Diet.of_files(PackedStringArray([file]), 10.0)
+		assert_array(diet.lobes.files.keys()).is_equal([file])
+		_write("user://reduced.res", diet.edit(file))
+		var dependencies := ResourceLoader.get_dependencies("user://reduced.res")
+		var reduced: ReducedTable = diet.lobes.tables.values()[0]
+		assert_str(" ".join(dependencies)).contains(reduced.get_path())
+		DirAccess.remove_absolute(file)
+		DirAccess.remove_absolute("user://reduced.res")
+
+
 func _find_material(scene: Node) -> LobeMaterial3D:
 	for node: MeshInstance3D in scene.find_children("*", "MeshInstance3D"):
 		for material: Material in [node.material_override, node.get_active_material(0)]:

@@ -25,7 +25,8 @@ static func of(fitted: LobeTable, instead_of: LobeTableSet) -> RefCounted:
 	reduced.table = fitted
 	reduced.lobes_before = instead_of.lobe_count
 	reduced.set_of_one = _make_set(fitted)
-	reduced.set_of_one.resource_path = reduced.get_path()
+	# That of an earlier export may still be there.
+	reduced.set_of_one.take_over_path(reduced.get_path())
 	return reduced
 
 
