@@ -7,7 +7,7 @@ const Pyramid := preload("pyramid.gd")
 
 # A panorama of as many texels around shows lamps as boxes on smooth materials.
 const _LEAST_PANORAMA := 512
-# As fine as what a sky of 256 texels a face is drawn for.
+# A smooth material shows the texels of a smaller cube.
 const _LEAST_SIZE := 64
 
 
