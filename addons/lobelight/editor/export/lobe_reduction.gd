@@ -228,7 +228,7 @@ func _bake(recipe: FewestLobes, title: String) -> Dictionary:
 		if cached is Dictionary:
 			return cached
 	var job := Job.new(null, recipe)
-	var progress := ImportProgress.new("Fewer lobes for %s" % title)
+	var progress := ImportProgress.new("Fewer lobes for %s" % title, "Export")
 	var result := MeasuredImporter.bake(job, progress)
 	if progress.is_cancelled:
 		_is_cancelled = true

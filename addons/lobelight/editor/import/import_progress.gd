@@ -1,8 +1,8 @@
 @tool
 extends RefCounted
-## How far the import of a file is, in a window with Cancel, or in the output where there is none.
+## How far an import or an export is, in a window with Cancel, or in the output where there is none.
 ##
-## The engine imports on its main thread and lets no frame go by meanwhile
+## The engine imports and exports on its main thread and lets no frame go by meanwhile
 ## (EditorFileSystem::reimport_files; even threaded importers get a single file there), and its own
 ## progress dialog is not for scripts. So this lets the system's events in and draws by itself.
 
@@ -19,14 +19,16 @@ const _PART := 0.25
 var is_cancelled := false
 
 var _title := ""
+var _window_title := ""
 var _began := Time.get_ticks_msec()
 var _said := 0.0
 var _window: Window
 var _panel: ProgressPanel
 
 
-func _init(title: String) -> void:
+func _init(title: String, window_title := "Import LobeTable") -> void:
 	_title = title
+	_window_title = window_title
 
 
 ## Waits for a moment, shows what is given, and takes clicks: to be called over and over.
@@ -59,7 +61,7 @@ func _open() -> void:
 	_panel = ProgressPanel.new()
 	_panel.title = _title
 	_window = Window.new()
-	_window.title = "Import LobeTable"
+	_window.title = _window_title
 	_window.transient = true
 	_window.exclusive = true
 	_window.unresizable = true
