@@ -3,6 +3,8 @@ extends EditorInspectorPlugin
 ## A warning in the inspector of a node whose mesh lacks the tangents that its [LobeMaterial3D]
 ## needs. The engine makes some up then: brushed surfaces and normal maps look wrong.
 
+const WarningLabel := preload("warnings/warning_label.gd")
+
 
 func _can_handle(object: Object) -> bool:
 	return object is MeshInstance3D
@@ -10,13 +12,8 @@ func _can_handle(object: Object) -> bool:
 
 func _parse_begin(object: Object) -> void:
 	var surfaces := find_surfaces(object as MeshInstance3D)
-	if surfaces.is_empty():
-		return
-	var label := Label.new()
-	label.autowrap_mode = TextServer.AUTOWRAP_WORD_SMART
-	label.text = get_text(surfaces)
-	label.add_theme_color_override(&"font_color", Color(1.0, 0.75, 0.3))
-	add_custom_control(label)
+	if not surfaces.is_empty():
+		add_custom_control(WarningLabel.new(get_text(surfaces)))
 
 
 ## The surfaces of a node that lack what their material needs.

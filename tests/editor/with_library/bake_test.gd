@@ -180,6 +180,18 @@ func test_a_target_that_is_out_of_reach_is_said() -> void:
 	assert_int(table.lobe_count).is_equal(1)
 
 
+func test_imported_tables_are_baked_by_their_importer() -> void:
+	var table := LobeTable.new()
+	table.take_over_path("res://imported.bsdf")
+	var panel := await _inspect(table)
+	assert_bool(panel._bake.disabled).is_true()
+	assert_str(panel.get_status()).contains("Reimport")
+	table.take_over_path("")
+	panel = await _inspect(LobeTable.new())
+	assert_bool(panel._bake.disabled).is_false()
+	assert_str(panel.get_status()).is_empty()
+
+
 func test_presets_are_recipes_that_the_library_takes() -> void:
 	for index in Presets.LIST.size():
 		var recipe := Presets.make(index)

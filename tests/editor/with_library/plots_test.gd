@@ -9,6 +9,7 @@ const Mixture := preload("res://addons/lobelight/editor/plots/mixture.gd")
 const Recipe := preload("res://addons/lobelight/editor/bake/bake_recipe.gd")
 const SphereComparison := preload("res://addons/lobelight/editor/preview/sphere_comparison.gd")
 const SphereView := preload("res://addons/lobelight/editor/preview/sphere_view.gd")
+const Studio := preload("res://addons/lobelight/editor/preview/studio.gd")
 const TableState := preload("res://addons/lobelight/editor/bake/table_state.gd")
 const TableView := preload("res://addons/lobelight/editor/plots/table_view.gd")
 
@@ -153,3 +154,54 @@ func test_the_reference_is_rendered_in_the_background() -> void:
 	assert_object(spheres.get_reference_texture()).is_null()
 	var is_there := func() -> bool: return spheres.get_reference_texture() != null
 	assert_bool(await Kit.wait_until(get_tree(), is_there, 60.0)).is_true()
+
+
+# Where nothing changes the editor draws no frame, and the wait would not end.
+func test_waiting_for_a_picture_asks_for_each_frame() -> void:
+	var sphere: SphereView = auto_free(SphereView.new())
+	EditorInterface.get_base_control().add_child(sphere)
+	# Before it has been drawn, its texture would show whatever the memory has.
+	assert_int(_mode_of(sphere)).is_equal(SubViewport.UPDATE_ALWAYS)
+	await await_idle_frame()
+	await await_idle_frame()
+	var drawn := [0]
+	sphere.draw.connect(func() -> void: drawn[0] += 1)
+	var is_over := [false]
+	var wait := func() -> void:
+		await sphere.draw_picture()
+		is_over[0] = true
+	wait.call()
+	for frame in 2:
+		await await_idle_frame()
+		await await_idle_frame()
+		assert_int(drawn[0]).is_equal(frame + 1)
+		assert_bool(is_over[0]).is_false()
+		RenderingServer.frame_post_draw.emit()
+	assert_bool(is_over[0]).is_true()
+	assert_int(_mode_of(sphere)).is_equal(SubViewport.UPDATE_WHEN_VISIBLE)
+
+
+func _mode_of(sphere: SphereView) -> SubViewport.UpdateMode:
+	return (
+		(sphere.find_children("*", "SubViewport", false, false)[0] as SubViewport)
+		. render_target_update_mode
+	)
+
+
+func test_the_inspector_is_not_widened() -> void:
+	var view := await _inspect(_table)
+	var plot := view.get_error_map().custom_minimum_size.x
+	assert_float(view.get_combined_minimum_size().x).is_between(plot, 1.9 * plot)
+	assert_float(view.get_spheres().get_combined_minimum_size().x).is_less(1.9 * plot)
+
+
+func test_a_cancelled_choice_shows_the_one_from_before() -> void:
+	var view := await _inspect(_table)
+	var spheres := view.get_spheres()
+	spheres._path = "res://hall.exr"
+	spheres._environment.selected = 0
+	spheres._show_choice()
+	assert_int(spheres._environment.selected).is_equal(1)
+	spheres._path = Studio.find_path()
+	spheres._show_choice()
+	assert_int(spheres._environment.selected).is_equal(0)

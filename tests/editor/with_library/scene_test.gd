@@ -10,6 +10,7 @@ const SceneUsage := preload("res://addons/lobelight/editor/menu/scene_usage.gd")
 const SceneWarnings := preload("res://addons/lobelight/editor/warnings/scene_warnings.gd")
 const ToolsMenu := preload("res://addons/lobelight/editor/menu/tools_menu.gd")
 const WarningRefresh := preload("res://addons/lobelight/editor/warnings/warning_refresh.gd")
+const WarningLabel := preload("res://addons/lobelight/editor/warnings/warning_label.gd")
 const WarningList := preload("res://addons/lobelight/editor/warnings/warning_list.gd")
 
 
@@ -166,6 +167,47 @@ func test_warnings_are_in_the_inspector() -> void:
 	assert_str("\n".join(list.get_warnings())).contains("press Bake")
 	EditorInterface.inspect_object(null)
 	await await_idle_frame()
+
+
+func test_a_mesh_without_tangents_is_told_so_in_the_theme_s_colour() -> void:
+	Kit.get_plugin(get_tree())
+	var arrays := []
+	arrays.resize(Mesh.ARRAY_MAX)
+	arrays[Mesh.ARRAY_VERTEX] = PackedVector3Array([Vector3.ZERO, Vector3.RIGHT, Vector3.UP])
+	arrays[Mesh.ARRAY_NORMAL] = PackedVector3Array([Vector3.BACK, Vector3.BACK, Vector3.BACK])
+	var sphere: MeshInstance3D = _make_scene().get_child(0)
+	sphere.mesh = ArrayMesh.new()
+	sphere.mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+	var material: LobeMaterial3D = sphere.material_override
+	material.table = null
+	material.anisotropy = 0.5
+	EditorInterface.inspect_object(sphere)
+	await await_idle_frame()
+	await await_idle_frame()
+	var labels := Kit.find_all(EditorInterface.get_inspector(), WarningLabel)
+	assert_int(labels.size()).is_equal(1)
+	assert_str(labels[0].text).contains("no tangents on surface 0")
+	var color := EditorInterface.get_editor_theme().get_color(&"warning_color", &"Editor")
+	assert_that(labels[0].get_theme_color(&"font_color")).is_equal(color)
+	EditorInterface.inspect_object(null)
+
+
+func test_environments_are_found_in_the_tree_and_outside() -> void:
+	var root := _make_scene()
+	var environment := LobeEnvironment3D.new()
+	root.get_child(0).add_child(environment)
+	var other: LobeEnvironment3D = auto_free(LobeEnvironment3D.new())
+	for is_in_tree: bool in [false, true]:
+		if is_in_tree:
+			# Two in one world: the second says that it waits.
+			other.visible = false
+			add_child(root)
+			add_child(other)
+		assert_array(SceneUsage.find_environments(root)).contains_exactly([environment])
+		assert_array(SceneUsage.find_environments(other)).contains_exactly([other])
+		assert_array(SceneUsage.find_environments(environment.get_parent())).is_not_empty()
+	remove_child(root)
+	remove_child(other)
 
 
 func test_the_report_names_what_the_scene_uses() -> void:

@@ -12,6 +12,7 @@ const Recipe := preload("bake_recipe.gd")
 
 const _MODEL_NAMES: PackedStringArray = ["GGX", "Ward (1992)", "Ward, bounded (2010)"]
 const _LOBES: PackedInt32Array = [4, 8, 16, 24, 32, Recipe.AUTOMATIC]
+const _IMPORTED := "The table is imported: set Lobes in the Import dock and Reimport."
 const _WARNING_COLOR := &"warning_color"
 const _ERROR_COLOR := &"error_color"
 
@@ -79,6 +80,8 @@ func _build() -> void:
 	_status.visible = false
 	add_child(_bake)
 	add_child(_status)
+	# After changes, the same preset is another choice.
+	_preset.allow_reselect = true
 	_preset.item_selected.connect(_on_preset)
 	_brdf.item_selected.connect(_on_brdf)
 	_file.chosen.connect(_on_file)
@@ -220,6 +223,8 @@ func _refresh() -> void:
 
 func _update_state() -> void:
 	var problem := NativeLibrary.get_problem()
+	if Recipe.is_imported(table):
+		problem = _IMPORTED
 	var baking := _queue.is_baking(table)
 	_bake.disabled = baking or not problem.is_empty()
 	_bake.text = "Baking …" if baking else "Bake"

@@ -39,6 +39,11 @@ static func from_table(table: LobeTable) -> RefCounted:
 	return recipe
 
 
+## Whether an importer bakes the table. What else is baked into it is gone with the next start.
+static func is_imported(table: LobeTable) -> bool:
+	return table.resource_path.get_extension() in MEASURED_EXTENSIONS
+
+
 ## For the table's metadata.
 func to_dictionary() -> Dictionary:
 	return {

@@ -20,9 +20,21 @@ static func of(root: Node) -> RefCounted:
 	return usage
 
 
-## Whether there is an environment among a node and all below it.
-static func has_environment(node: Node) -> bool:
-	return node is LobeEnvironment3D or node.get_children().any(has_environment)
+## The environments among a node and all below it. In the tree they are known: warnings ask over and
+## over, and a walk through a large scene takes milliseconds.
+static func find_environments(root: Node) -> Array[LobeEnvironment3D]:
+	var found: Array[LobeEnvironment3D] = []
+	if root == null:
+		return found
+	var nodes: Array[Node] = [root]
+	if root.is_inside_tree():
+		nodes = root.get_tree().get_nodes_in_group(LobeEnvironment3D._GROUP)
+	else:
+		nodes.append_array(root.find_children("*", "LobeEnvironment3D", true, false))
+	for node in nodes:
+		if node is LobeEnvironment3D and (node == root or root.is_ancestor_of(node)):
+			found.append(node)
+	return found
 
 
 func _look_at(node: Node) -> void:

@@ -60,9 +60,9 @@ func bake_all(root: Node) -> int:
 	return count
 
 
-## Whether it is known what the table was baked from. Imported ones are baked by their importer.
+## Whether it is known what the table was baked from, and no importer bakes it.
 static func can_bake(table: LobeTable) -> bool:
-	if table.resource_path.get_extension() in Recipe.MEASURED_EXTENSIONS:
+	if Recipe.is_imported(table):
 		return false
 	var recipe: Recipe = Recipe.from_table(table)
 	var is_known := table.has_meta(Recipe.META) or table.brdf in Recipe.MODELS

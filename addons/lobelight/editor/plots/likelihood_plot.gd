@@ -36,6 +36,6 @@ func _draw() -> void:
 		var place := Vector2(float(n) / (_curve.size() - 1), 1.0 - (_curve[n] - least) / span)
 		points.append(plot.position + plot.size * place)
 	draw_polyline(points, get_accent(), scaled(1.5), true)
-	draw_text_left_of(plot.end + Vector2(0.0, 0.0), "%d iterations" % (_curve.size() - 1), text)
+	draw_text_left_of(plot.end, "%d iterations" % (_curve.size() - 1), text)
 	var below := plot.end - Vector2(0.0, get_line_height() + scaled(2.0))
 	draw_text_left_of(below, "%.3f → %.3f" % [_curve[0], _curve[-1]], text)

@@ -43,12 +43,11 @@ func _build() -> void:
 	_baked.add_child(FormRow.make("View elevation", _elevation, tooltip))
 	tooltip = "The view's azimuth, as an angle from the tangent."
 	_baked.add_child(FormRow.make("View azimuth", _azimuth, tooltip))
-	var grid := GridContainer.new()
-	grid.columns = 2
-	grid.size_flags_horizontal = Control.SIZE_EXPAND_FILL
+	# Below each other where the inspector is narrow, which they do not widen.
+	var plots := HFlowContainer.new()
 	for plot: Control in [_slice, _disc, _errors, _likelihood]:
-		grid.add_child(plot)
-	_baked.add_child(grid)
+		plots.add_child(plot)
+	_baked.add_child(plots)
 	_baked.add_child(_spheres)
 	_elevation.value_changed.connect(_queue_view.unbind(1))
 	_azimuth.value_changed.connect(_queue_view.unbind(1))

@@ -7,6 +7,8 @@ const SphereView := preload("sphere_view.gd")
 ## Roughness and anisotropy.
 const SPHERES: Array[Vector2] = [Vector2(0.1, 0.0), Vector2(0.4, 0.0), Vector2(0.4, 0.95)]
 
+const _SIDE := 72.0
+
 
 func _init() -> void:
 	tooltip_text = "Metal in the environment's light: smooth, rough, and brushed."
@@ -16,14 +18,6 @@ func _init() -> void:
 		material.roughness = look.x
 		material.anisotropy = look.y
 		sphere.material_3d = material
+		sphere.least_size = Vector2(_SIDE, _SIDE)
 		sphere.mouse_filter = Control.MOUSE_FILTER_PASS
 		add_child(sphere)
-
-
-func _enter_tree() -> void:
-	for sphere: Control in get_children():
-		sphere.set_deferred(&"custom_minimum_size", Vector2(1, 1) * _get_side())
-
-
-static func _get_side() -> float:
-	return 72.0 * EditorInterface.get_editor_scale()

@@ -38,6 +38,8 @@ func _init() -> void:
 	_picture.expand_mode = TextureRect.EXPAND_IGNORE_SIZE
 	_picture.stretch_mode = TextureRect.STRETCH_KEEP_ASPECT_CENTERED
 	_picture.size_flags_horizontal = SIZE_EXPAND_FILL
+	# The pictures share the width, however little there is.
+	_sphere.least_size.x = 0.0
 	_sphere.tooltip_text = "Drawn with the table's lobes, one fetch each."
 	_picture.tooltip_text = "The reference: the BRDF integrated with many samples."
 	pictures.add_child(_sphere)
@@ -48,6 +50,8 @@ func _init() -> void:
 	add_child(_render)
 	_status.autowrap_mode = TextServer.AUTOWRAP_WORD_SMART
 	add_child(_status)
+	# Another file may follow the first.
+	_environment.allow_reselect = true
 	_environment.item_selected.connect(_on_environment)
 	_render.pressed.connect(render_reference)
 	set_process(false)
@@ -134,10 +138,7 @@ func _show_reference(pixels: PackedFloat32Array) -> void:
 		return
 	_light.energy = exposure
 	_sphere.set_light(_light)
-	for frame in 2:
-		# The editor draws a frame only where something has changed.
-		queue_redraw()
-		await RenderingServer.frame_post_draw
+	await _sphere.draw_picture()
 	if not is_inside_tree():
 		return
 	_status.text = (
@@ -156,9 +157,13 @@ func _on_environment(index: int) -> void:
 		_dialog.access = EditorFileDialog.ACCESS_FILESYSTEM
 		_dialog.add_filter("*.exr,*.hdr", "Panoramas")
 		_dialog.file_selected.connect(_choose)
-		_dialog.canceled.connect(func() -> void: _environment.selected = 0)
+		_dialog.canceled.connect(_show_choice)
 		add_child(_dialog)
 	_dialog.popup_file_dialog()
+
+
+func _show_choice() -> void:
+	_environment.selected = 0 if _path == Studio.find_path() else 1
 
 
 func _choose(path: String) -> void:

@@ -3,7 +3,7 @@ extends TextureRect
 ## A sphere with a [LobeMaterial3D] in a world of its own, seen as the reference renders it: a unit
 ## sphere from +z, orthographically, with the tangent along the equator.
 
-## Pixels along the side of the picture at the editor's scale 1.
+## Pixels along the side of the picture.
 const SIZE := 128
 
 const EnvironmentLight := preload("../../runtime/environment_light.gd")
@@ -14,6 +14,9 @@ var material_3d: LobeMaterial3D:
 	set(value):
 		material_3d = value
 		_sphere.material_override = value
+
+## The least width and height at the editor's scale 1.
+var least_size := Vector2(SIZE, SIZE)
 
 var _viewport := SubViewport.new()
 var _sphere := MeshInstance3D.new()
@@ -27,7 +30,6 @@ func _init() -> void:
 	_viewport.transparent_bg = true
 	_viewport.size = Vector2i(SIZE, SIZE)
 	_viewport.msaa_3d = Viewport.MSAA_4X
-	_viewport.render_target_update_mode = SubViewport.UPDATE_WHEN_VISIBLE
 	var mesh := SphereMesh.new()
 	mesh.radial_segments = 96
 	mesh.rings = 48
@@ -44,7 +46,12 @@ func _init() -> void:
 
 
 func _enter_tree() -> void:
-	custom_minimum_size = Vector2(SIZE, SIZE) * EditorInterface.get_editor_scale()
+	custom_minimum_size = least_size * EditorInterface.get_editor_scale()
+	# The engine draws what is visible from the frame after it has been shown on: until then the
+	# memory of the texture, whatever is in it, would be seen.
+	_viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	if not RenderingServer.frame_post_draw.is_connected(_draw_when_visible):
+		RenderingServer.frame_post_draw.connect(_draw_when_visible, CONNECT_ONE_SHOT)
 
 
 ## Lights the sphere by a light of its own, rather than by that of the edited scene.
@@ -53,6 +60,18 @@ func set_light(light: EnvironmentLight) -> void:
 	light.apply(material_3d.get_rid())
 
 
+## Waits until what was set last has been drawn.
+func draw_picture() -> void:
+	for frame in 2:
+		# The editor draws a frame only where something has changed.
+		queue_redraw()
+		await RenderingServer.frame_post_draw
+
+
 ## The picture as it is shown, once it has been drawn.
 func get_picture() -> Image:
 	return _viewport.get_texture().get_image()
+
+
+func _draw_when_visible() -> void:
+	_viewport.render_target_update_mode = SubViewport.UPDATE_WHEN_VISIBLE

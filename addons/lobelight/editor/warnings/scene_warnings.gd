@@ -24,7 +24,7 @@ static func of_scene(root: Node) -> PackedStringArray:
 ## Of a material as it is used in a scene, which may be null.
 static func of_material(material: LobeMaterial3D, root: Node) -> PackedStringArray:
 	var warnings := _of_properties(material)
-	if root != null and not SceneUsage.has_environment(root):
+	if root != null and SceneUsage.find_environments(root).is_empty():
 		warnings.append(_without_environment())
 	return warnings
 

@@ -2,6 +2,8 @@
 extends VBoxContainer
 ## Sentences in the inspector that are looked up anew twice a second, as the scene may change.
 
+const WarningLabel := preload("warning_label.gd")
+
 const _PERIOD := 0.5
 
 # Gives a PackedStringArray.
@@ -38,8 +40,4 @@ func _update() -> void:
 	for child in get_children():
 		child.queue_free()
 	for sentence in found:
-		var label := Label.new()
-		label.autowrap_mode = TextServer.AUTOWRAP_WORD_SMART
-		label.text = sentence
-		label.add_theme_color_override(&"font_color", get_theme_color(&"warning_color", &"Editor"))
-		add_child(label)
+		add_child(WarningLabel.new(sentence))

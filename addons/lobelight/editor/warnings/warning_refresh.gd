@@ -4,6 +4,7 @@ extends Timer
 ## properties; this looks at what else there is to it: skies that come, go or change.
 
 const EnvironmentWarnings := preload("../../runtime/environment_warnings.gd")
+const SceneUsage := preload("../menu/scene_usage.gd")
 
 # What the scene tree shows, by the nodes' instance ids.
 var _shown: Dictionary[int, PackedStringArray] = {}
@@ -20,7 +21,7 @@ func refresh() -> int:
 	var root := EditorInterface.get_edited_scene_root()
 	var seen: Dictionary[int, PackedStringArray] = {}
 	var count := 0
-	for environment in find_environments(root):
+	for environment in SceneUsage.find_environments(root):
 		var id := environment.get_instance_id()
 		seen[id] = EnvironmentWarnings.of(environment, root)
 		if seen[id] != _shown.get(id, PackedStringArray()):
@@ -28,15 +29,3 @@ func refresh() -> int:
 			count += 1
 	_shown = seen
 	return count
-
-
-## The environments of a scene.
-static func find_environments(root: Node) -> Array[LobeEnvironment3D]:
-	var found: Array[LobeEnvironment3D] = []
-	if root == null:
-		return found
-	for node in root.find_children("*", "LobeEnvironment3D", true, false):
-		found.append(node)
-	if root is LobeEnvironment3D:
-		found.append(root)
-	return found
