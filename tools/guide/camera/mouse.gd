@@ -96,7 +96,12 @@ func drag(control: Control, by: Vector2, what: String) -> void:
 	if control == null:
 		fail("%s is not there" % what)
 		return
-	await move(find_rect(control).get_center())
+	await drag_from(find_rect(control).get_center(), by, what)
+
+
+## Drags a place to the side.
+func drag_from(place: Vector2, by: Vector2, what: String) -> void:
+	await move(place)
 	_button(MOUSE_BUTTON_LEFT, true)
 	clicks += 1
 	for part in 10:

@@ -1,21 +1,9 @@
 @tool
-extends RefCounted
+extends "walk.gd"
 ## The guide's list of clicks, from an empty project to a brushed sphere in the light of the sky.
-
-const Finder := preload("finder.gd")
-const Mouse := preload("mouse.gd")
 
 const ADDON := "lobelight"
 const ANISOTROPY := 0.9
-
-var _mouse: Mouse
-var _take: Callable
-var _root: Window = EditorInterface.get_base_control().get_window()
-
-
-func _init(mouse: Mouse, take: Callable) -> void:
-	_mouse = mouse
-	_take = take
 
 
 func go() -> void:
@@ -44,7 +32,7 @@ func go() -> void:
 
 
 func _enable() -> void:
-	await open_menu(_mouse, "Project")
+	await _open_menu("Project")
 	await _mouse.choose(_root, "Project Settings...")
 	await _mouse.wait(0.5)
 	var settings := Finder.of_class(_root, "ProjectSettingsEditor")
@@ -65,14 +53,6 @@ func _add_node(type: String) -> void:
 	await _mouse.wait(1.0)
 
 
-func _choose_resource(property: StringName, type: String) -> void:
-	await choose_resource(_mouse, property, type)
-
-
-func _unfold(title: String) -> void:
-	await unfold(_mouse, title)
-
-
 func _drag_anisotropy() -> void:
 	var property := Finder.property(&"anisotropy")
 	await _mouse.scroll_to(EditorInterface.get_inspector(), property)
@@ -85,35 +65,3 @@ func _drag_anisotropy() -> void:
 	await _mouse.drag(grabber, Vector2(way * ANISOTROPY / range_of_values, 0.0), "Anisotropy")
 	var value: float = property.get_edited_object().get(&"anisotropy")
 	_expect(absf(value - ANISOTROPY) < 0.1, "anisotropy of 0.9, not %s" % value)
-
-
-func _expect(is_there: bool, what: String) -> void:
-	if not is_there:
-		_mouse.fail("there is no " + what)
-
-
-## Opens a menu of the editor's bar.
-static func open_menu(mouse: Mouse, title: String) -> void:
-	var bar: MenuBar = Finder.of_class(EditorInterface.get_base_control(), "MenuBar")
-	var place := mouse.find_rect(bar).position + Finder.menu_title(bar, title)
-	await mouse.click_at(place, bar, title)
-
-
-## Makes a new resource for a property in the inspector.
-static func choose_resource(mouse: Mouse, property: StringName, type: String) -> void:
-	var editor := Finder.property(property)
-	await mouse.scroll_to(EditorInterface.get_inspector(), editor)
-	await mouse.click(Finder.button(editor, "<empty>"), property)
-	await mouse.choose(editor.get_window(), type)
-	await mouse.wait(1.0)
-
-
-## Unfolds a section of the inspector by its header.
-static func unfold(mouse: Mouse, title: String) -> void:
-	var section := Finder.section(title)
-	if section == null:
-		mouse.fail("there is no section " + title)
-		return
-	await mouse.scroll_to(EditorInterface.get_inspector(), section)
-	await mouse.click_at(mouse.find_rect(section).position + Vector2(60.0, 12.0), section, title)
-	await mouse.wait(0.5)

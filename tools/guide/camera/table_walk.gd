@@ -1,28 +1,15 @@
 @tool
-extends RefCounted
+extends "walk.gd"
 ## Goes on from the brushed sphere: the report of the scene, and a table for its material.
-
-const Finder := preload("finder.gd")
-const Mouse := preload("mouse.gd")
-const SphereWalk := preload("sphere_walk.gd")
 
 # Of a tenth of a second: a reference takes its time on a busy machine.
 const _TURNS := 3000
 
-var _mouse: Mouse
-var _take: Callable
-var _root: Window = EditorInterface.get_base_control().get_window()
-
-
-func _init(mouse: Mouse, take: Callable) -> void:
-	_mouse = mouse
-	_take = take
-
 
 func go() -> void:
 	await _report()
-	await SphereWalk.unfold(_mouse, "BRDF")
-	await SphereWalk.choose_resource(_mouse, &"table", "LobeTable")
+	await _unfold("BRDF")
+	await _choose_resource(&"table", "LobeTable")
 	await _mouse.click(Finder.button(Finder.property(&"table"), ""), "the table")
 	await _mouse.wait(1.0)
 	await _bake()
@@ -30,7 +17,7 @@ func go() -> void:
 
 
 func _report() -> void:
-	await SphereWalk.open_menu(_mouse, "Project")
+	await _open_menu("Project")
 	var tools := await _mouse.open_submenu(await _mouse.find_menu(_root, "Tools"), "Tools")
 	var ours := await _mouse.open_submenu(tools, "Lobelight")
 	await _mouse.choose_from(ours, "Report What This Scene Uses …")
@@ -70,6 +57,7 @@ func _bake() -> void:
 func _see() -> void:
 	await _mouse.wait(1.0)
 	var inspector := EditorInterface.get_inspector()
+	await _widen(inspector)
 	var compare := Finder.button(inspector, "Compare with Reference")
 	await _mouse.scroll_to(inspector, compare)
 	await _mouse.wait(1.0)
@@ -79,6 +67,17 @@ func _see() -> void:
 		func() -> bool: return "dB" in (spheres.call("get_status") as String), "the reference"
 	)
 	await _take.call("6_baked")
+
+
+# Side by side, the plots fit into the picture.
+func _widen(inspector: Control) -> void:
+	var dock: Control = inspector
+	while not dock is TabContainer:
+		dock = dock.get_parent_control()
+	var rect := _mouse.find_rect(dock)
+	var edge := Vector2(rect.position.x - 2.0, rect.get_center().y)
+	await _mouse.drag_from(edge, Vector2(-120.0, 0.0), "the edge of the inspector")
+	_expect(dock.size.x > rect.size.x + 100.0, "wider inspector")
 
 
 func _wait_until(condition: Callable, what: String) -> void:
