@@ -107,6 +107,8 @@ func _ready() -> void:
 			_surfaces.append(object)
 			if object.title:
 				objects.append(object)
+	if get_viewport() is Window:
+		get_viewport().msaa_3d = Viewport.MSAA_4X
 	compare_view.set_up(camera)
 	camera.tapped.connect(_choose_at)
 	_light.rebuilt.connect(_on_light_rebuilt)
@@ -242,7 +244,6 @@ func _show_methods() -> void:
 		surface.show_methods(left_method, right_method)
 	_show_stock_light()
 	_light_rivals()
-	missing_tables.clear()
 	_load_tables()
 
 

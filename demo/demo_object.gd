@@ -95,6 +95,9 @@ func _material_of(method: int) -> Material:
 			return material
 		Methods.Method.STOCK:
 			return _make_stock()
+	if rival_light == null:
+		# Its map takes some frames, in which the object would be black.
+		return material
 	if not _rivals.has(method):
 		_rivals[method] = RivalMaterial.make(method == Methods.Method.THESIS)
 	var rival: RivalMaterial = _rivals[method]

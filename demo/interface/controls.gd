@@ -39,12 +39,23 @@ func set_up(demo: DemoRoot) -> void:
 	add_child(scroll)
 	_rows.size_flags_horizontal = Control.SIZE_EXPAND_FILL
 	_rows.add_theme_constant_override(&"separation", 4)
-	scroll.add_child(_rows)
+	# Room for the bar by which the panel is scrolled.
+	var inset := MarginContainer.new()
+	inset.add_theme_constant_override(&"margin_right", 6)
+	inset.size_flags_horizontal = Control.SIZE_EXPAND_FILL
+	inset.add_child(_rows)
+	scroll.add_child(inset)
 	_add_environment()
 	_add_methods()
 	_add_widths()
 	demo.changed.connect(show_state)
 	show_state()
+
+
+## The height at which nothing has to be scrolled.
+func get_whole_height() -> float:
+	var frame := get_theme_stylebox(&"panel").get_minimum_size().y
+	return _rows.get_combined_minimum_size().y + frame
 
 
 ## The next item of an option button, around the end.
@@ -165,6 +176,10 @@ func _add_row(text: String, control: Control) -> HBoxContainer:
 	control.custom_minimum_size.y = Look.TOUCH
 	control.size_flags_horizontal = Control.SIZE_EXPAND_FILL
 	control.focus_mode = Control.FOCUS_NONE
+	if control is BaseButton:
+		# A finger that starts on a button may scroll the panel.
+		control.mouse_filter = Control.MOUSE_FILTER_PASS
+		(control as BaseButton).action_mode = BaseButton.ACTION_MODE_BUTTON_RELEASE
 	row.add_child(control)
 	_rows.add_child(row)
 	return row

@@ -30,7 +30,7 @@ func _draw() -> void:
 	draw_line(Vector2(middle, 0.0), Vector2(middle, size.y), Color(0.0, 0.0, 0.0, 0.35), 4.0)
 	draw_line(Vector2(middle, 0.0), Vector2(middle, size.y), colour, 2.0)
 	var handle := Vector2(middle, 0.5 * size.y)
-	draw_circle(handle, 20.0, Color(0.05, 0.055, 0.07, 0.85), true, -1.0, true)
+	draw_circle(handle, 20.0, Look.PANEL, true, -1.0, true)
 	draw_circle(handle, 20.0, colour, false, 2.0, true)
 	for side: float in [-1.0, 1.0]:
 		var tip := handle + Vector2(12.0 * side, 0.0)

@@ -9,7 +9,7 @@ const FrameTimes := preload("frame_times.gd")
 const Look := preload("look.gd")
 const Methods := preload("../methods.gd")
 const _MARGIN := 12.0
-const _PANEL_WIDTH := 330.0
+const _PANEL_WIDTH := 342.0
 ## Of the height, in portrait.
 const _SHEET_SHARE := 0.42
 # Of the labels' text, in seconds.
@@ -20,6 +20,8 @@ var ui_scale := 0.0:
 	set(value):
 		ui_scale = value
 		arrange()
+## Whether the titles say how long frames take.
+var shows_times := true
 ## Whether the panel is open.
 var is_open := true:
 	set(value):
@@ -36,6 +38,8 @@ var _demo: DemoRoot
 var _root := Control.new()
 var _times := FrameTimes.new()
 var _since_refresh := INF
+# Where the divider's handle goes at most.
+var _most_divider := 1.0
 
 
 func _ready() -> void:
@@ -46,7 +50,7 @@ func _ready() -> void:
 	add_child(_root)
 	for part: Control in [divider, left_title, right_title, controls, fold]:
 		_root.add_child(part)
-	divider.moved.connect(func(to: float) -> void: _demo.divider = to)
+	divider.moved.connect(_move_divider)
 	fold.focus_mode = Control.FOCUS_NONE
 	fold.pressed.connect(func() -> void: is_open = not is_open)
 	# The demo's own _ready comes after that of its children.
@@ -65,7 +69,7 @@ func _start() -> void:
 func _process(delta: float) -> void:
 	if not visible:
 		return
-	_times.add_frame(delta, _demo.compare_view.get_viewports())
+	_times.add_frame(_demo.compare_view.get_viewports())
 	_since_refresh += delta
 	if _since_refresh >= _REFRESH:
 		_since_refresh = 0.0
@@ -122,8 +126,14 @@ func arrange() -> void:
 		)
 	_demo.camera.free_area = Rect2(free.position * unit, free.size * unit)
 	left_title.position = Vector2(_MARGIN, _MARGIN)
-	divider.size = Vector2(Look.TOUCH, size.y)
+	divider.size = Vector2(Look.TOUCH, free.size.y)
+	# Where the panel is not, so that the handle can be taken again.
+	_most_divider = free.size.x / size.x if is_open and not is_portrait else 1.0
 	_show_state()
+
+
+func _move_divider(to: float) -> void:
+	_demo.divider = minf(to, _most_divider)
 
 
 func _get_panel(size: Vector2, is_portrait: bool) -> Rect2:
@@ -131,7 +141,8 @@ func _get_panel(size: Vector2, is_portrait: bool) -> Rect2:
 		var height := _SHEET_SHARE * size.y
 		return Rect2(_MARGIN, size.y - height, size.x - 2.0 * _MARGIN, height - _MARGIN)
 	var top := 2.0 * _MARGIN + Look.TOUCH
-	return Rect2(size.x - _PANEL_WIDTH, top, _PANEL_WIDTH - _MARGIN, size.y - top - _MARGIN)
+	var height := minf(controls.get_whole_height(), size.y - top - _MARGIN)
+	return Rect2(size.x - _PANEL_WIDTH, top, _PANEL_WIDTH - _MARGIN, height)
 
 
 # Android's density-independent pixels; elsewhere the desktop's scale.
@@ -144,9 +155,7 @@ func _get_density() -> float:
 func _make_title() -> Label:
 	var title := Label.new()
 	title.mouse_filter = Control.MOUSE_FILTER_IGNORE
-	title.add_theme_stylebox_override(
-		&"normal", Look.make_box(Color(0.05, 0.055, 0.07, 0.72), 8, 10)
-	)
+	title.add_theme_stylebox_override(&"normal", Look.make_box(Look.PANEL, 8, 10))
 	return title
 
 
@@ -161,17 +170,20 @@ func _show_state() -> void:
 
 func _show_titles() -> void:
 	var is_comparing := _demo.right_method != Methods.NONE
-	var left_text := Methods.title_of(_demo.left_method, _demo.lobe_count)
-	left_title.text = left_text + _times.get_gpu_text(0) + "\n" + _times.get_frame_text()
+	var left_lines: PackedStringArray = [Methods.title_of(_demo.left_method, _demo.lobe_count)]
+	if shows_times:
+		left_lines.append_array([_times.get_gpu_text(0), _times.get_frame_text()])
 	if _demo.missing_tables:
-		left_title.text += "\nTables are missing: run ./dev demo --window."
-	left_title.reset_size()
+		left_lines.append("Tables are missing: run ./dev demo --window.")
+	_set_lines(left_title, left_lines)
 	right_title.visible = is_comparing and _demo.divider < 1.0
 	if right_title.visible:
-		right_title.text = (
-			Methods.title_of(_demo.right_method, _demo.lobe_count) + _times.get_gpu_text(1)
-		)
-		right_title.reset_size()
+		var right_lines: PackedStringArray = [
+			Methods.title_of(_demo.right_method, _demo.lobe_count)
+		]
+		if shows_times:
+			right_lines.append(_times.get_gpu_text(1))
+		_set_lines(right_title, right_lines)
 		# Below the left one and the button, so that the three never meet.
 		var below := maxf(left_title.size.y, Look.TOUCH) + 2.0 * _MARGIN
 		var most := _root.size.x - right_title.size.x - _MARGIN
@@ -179,3 +191,11 @@ func _show_titles() -> void:
 			most = controls.position.x - right_title.size.x - _MARGIN
 		var at := _demo.divider * _root.size.x + _MARGIN
 		right_title.position = Vector2(clampf(at, _MARGIN, maxf(most, _MARGIN)), below)
+
+
+# Those that are not empty.
+static func _set_lines(title: Label, lines: PackedStringArray) -> void:
+	title.text = "\n".join(
+		Array(lines).filter(func(line: String) -> bool: return not line.is_empty())
+	)
+	title.reset_size()

@@ -1,11 +1,12 @@
 extends Object
-## How the controls look: dark glass with one accent, large enough for a finger.
+## How the controls look: dark with one accent, large enough for a finger.
 
 ## The least height of what is touched, in units of the interface.
 const TOUCH := 44.0
 const ACCENT := Color(1.0, 0.74, 0.36)
 const TEXT := Color(0.93, 0.94, 0.96)
-# Opaque, since they lie on bright pictures too, and glass blends otherwise where 2D is linear.
+# All are opaque: they lie on bright pictures too, and glass blends otherwise where 2D is linear.
+const PANEL := Color(0.05, 0.055, 0.07)
 const _FIELD := Color(0.17, 0.18, 0.2)
 const _HOVER := Color(0.26, 0.27, 0.3)
 
@@ -13,9 +14,7 @@ const _HOVER := Color(0.26, 0.27, 0.3)
 static func make_theme() -> Theme:
 	var theme := Theme.new()
 	theme.default_font_size = 15
-	theme.set_stylebox(
-		&"panel", &"PanelContainer", make_box(Color(0.05, 0.055, 0.07, 0.94), 14, 12)
-	)
+	theme.set_stylebox(&"panel", &"PanelContainer", make_box(PANEL, 14, 12))
 	for type: StringName in [&"Button", &"OptionButton", &"CheckButton"]:
 		theme.set_stylebox(&"normal", type, make_box(_FIELD, 8, 10))
 		theme.set_stylebox(&"hover", type, make_box(_HOVER, 8, 10))
@@ -29,7 +28,7 @@ static func make_theme() -> Theme:
 	theme.set_color(&"font_color", &"Label", TEXT)
 	theme.set_constant(&"v_separation", &"PopupMenu", 16)
 	theme.set_font_size(&"font_size", &"PopupMenu", 16)
-	theme.set_stylebox(&"panel", &"PopupMenu", make_box(Color(0.09, 0.1, 0.12, 0.98), 8, 8))
+	theme.set_stylebox(&"panel", &"PopupMenu", make_box(Color(0.09, 0.1, 0.12), 8, 8))
 	theme.set_stylebox(&"slider", &"HSlider", _make_bar(Color(1.0, 1.0, 1.0, 0.2)))
 	theme.set_stylebox(&"grabber_area", &"HSlider", _make_bar(ACCENT))
 	theme.set_stylebox(&"grabber_area_highlight", &"HSlider", _make_bar(ACCENT))

@@ -38,7 +38,10 @@ static func of_environment(environment: LobeEnvironment3D) -> RefCounted:
 	return made
 
 
-## c of shaders/environment.gdshaderinc.
-func level_variance() -> float:
+## Published rules for levels are for 2 × 2 means, whose level l blurs by (1/12 + 1/6) 4^l of a
+## texel's solid angle; here it is (c + 1/6) 4^l, c as in shaders/environment.gdshaderinc. The
+## rules' solid angles times this ask for the level that blurs as much.
+func box_share() -> float:
+	var box := Pyramid.LEVEL_VARIANCES[Pyramid.Filter.BOX] + 1.0 / 6.0
 	var filter := Pyramid.Filter.DISC if is_round else Pyramid.Filter.BOX
-	return Pyramid.LEVEL_VARIANCES[filter]
+	return box / (Pyramid.LEVEL_VARIANCES[filter] + 1.0 / 6.0)

@@ -8,6 +8,7 @@ const Samples := preload("samples.gd")
 # Loaded here so that exported projects contain them.
 const _INCLUDES_OF_RIVALS: Array[ShaderInclude] = [
 	preload("thesis.gdshaderinc"),
+	preload("thesis_round.gdshaderinc"),
 	preload("fis.gdshaderinc"),
 	preload("fis_round.gdshaderinc"),
 ]
@@ -56,7 +57,7 @@ func _follow_thesis() -> void:
 	_give(&"toral_lobes", ThesisTable.texture_of(table))
 	_give(&"toral_map", _map.cubemap)
 	_give(&"toral_grid", ThesisTable.grid_of(table))
-	_give(&"toral_constants", Vector2(0.0, ThesisTable.level_of(_map.size)))
+	_give(&"toral_constants", Vector2(0.0, ThesisTable.level_of(_map)))
 
 
 func _follow_samples() -> void:
@@ -74,10 +75,10 @@ func _follow_samples() -> void:
 
 func _get_fragment_path() -> String:
 	var folder := (get_script() as Script).resource_path.get_base_dir()
-	if is_thesis:
-		return folder.path_join("thesis.gdshaderinc")
-	var is_round := _map != null and _map.is_round
-	return folder.path_join("fis_round.gdshaderinc" if is_round else "fis.gdshaderinc")
+	var title := "thesis" if is_thesis else "fis"
+	if _map != null and _map.is_round:
+		title += "_round"
+	return folder.path_join(title + ".gdshaderinc")
 
 
 # The rendering server keeps textures by their number only.

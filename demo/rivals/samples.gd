@@ -17,12 +17,9 @@ static func constants() -> PackedVector4Array:
 	return _constants
 
 
-## (2π αx αy / N / (4 / S²)) 4^bias. The bias makes the published rule, which is for 2 × 2 means,
-## blur as much on other levels: level l blurs by (c + 1/6) 4^l of a texel's solid angle.
+## (2π αx αy / N / (4 / S²)) 4^bias, the bias being what [method RivalLight.box_share] stands for.
 static func level_scale(widths: Vector2, light: RivalLight) -> float:
-	const BOX_VARIANCE := 1.0 / 12.0
-	var matching := (BOX_VARIANCE + 1.0 / 6.0) / (light.level_variance() + 1.0 / 6.0)
-	return TAU * widths.x * widths.y * matching / COUNT * 0.25 * light.size * light.size
+	return TAU * widths.x * widths.y * light.box_share() / COUNT * 0.25 * light.size * light.size
 
 
 static func _reversed(index: int) -> float:

@@ -1,6 +1,7 @@
 extends Object
 ## The thesis' lobes: one texel (weight, kappa, polar angle, azimuth) for each fitted view and lobe.
 
+const RivalLight := preload("rival_light.gd")
 ## The share of a lobe that the texels are to cover; as `./dev compare` has it.
 const COVERAGE := 0.47
 
@@ -55,9 +56,10 @@ static func grid_of(table: LobeTable) -> Vector4:
 	return Vector4(1.0 / LobeTable.MAX_VIEW_ANGLE, last.y / (0.5 * PI), last.x, last.y)
 
 
-## Eq. 2.9 to 2.11 without what depends on the lobe, on a cube map of so many texels a side.
-static func level_of(size: int) -> float:
-	return 0.5 * log(-TAU * log(1.0 - COVERAGE) * size * size / 4.0) / log(2.0)
+## Eq. 2.9 to 2.11 without what depends on the lobe.
+static func level_of(light: RivalLight) -> float:
+	var lobe := -TAU * log(1.0 - COVERAGE) * light.box_share()
+	return 0.5 * log(lobe * light.size * light.size / 4.0) / log(2.0)
 
 
 static func _texel(lobe: Dictionary) -> Color:

@@ -3,8 +3,6 @@ extends Node3D
 
 const GlowShader := preload("glow.gdshader")
 const Layers := preload("../layers.gd")
-## Seconds in which the lamp goes round once.
-const PERIOD := 9.0
 const _LAMP_RADIUS := 0.42
 # So near and high that it is never between the camera and the objects.
 const _ORBIT := 2.9

@@ -237,7 +237,8 @@ class MeasurementsTest(unittest.TestCase):
         files = ("addons/lobelight/runtime/shaders/lobe.gdshaderinc", "addons/lobelight/tables/ggx.res", "bake/comparison.gd")
         files += ("bake/comparators/fis.gd", "gdextension/src/fit/em.cpp", "addons/lobelight/runtime/pyramid.gd")
         kept = ("addons/lobelight/editor/plugin.gd", "addons/lobelight/editor/export/diet.gd", "addons/lobelight/plugin.cfg")
-        kept += ("bake/bake.gd", "bake/recipes/brushed_ward.json", "addons/lobelight/doc_classes/LobeTable.xml", "demo/demo.gd")
+        kept += ("bake/bake.gd", "bake/bake_demo.gd", "bake/recipes/brushed_ward.json", "demo/demo.gd")
+        kept += ("addons/lobelight/doc_classes/LobeTable.xml",)
         for name in (*files, *kept):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             (self.folder / name).write_text("a", encoding="utf-8")

@@ -176,13 +176,34 @@ func test_a_tap_chooses_an_object() -> void:
 
 func test_the_divider_goes_where_it_is_dragged() -> void:
 	_demo.right_method = Methods.Method.STOCK
-	var middle := 0.5 * SIZE
 	_drag(Vector2(0.5 * SIZE.x, 0.5 * SIZE.y), Vector2(400, 300))
 	assert_int(_demo.compare_view.get_divider_pixel()).is_equal(400)
 	assert_float(_demo.camera.yaw).is_equal(0.0)
-	_drag(Vector2(400, 300), Vector2(-50, 300))
+	# Not below the panel, where the handle could not be taken again.
+	_drag(Vector2(400, 300), Vector2(2 * SIZE.x, 300))
+	var at := _demo.compare_view.get_divider_pixel()
+	assert_float(absf(at - _interface.controls.get_global_rect().position.x)).is_less(1.0)
+	_drag(Vector2(at - 5, 300), Vector2(-50, 300))
 	assert_float(_demo.divider).is_equal(0.0)
-	assert_float(middle.x).is_greater(0.0)
+
+
+func test_a_finger_scrolls_the_sheet_from_wherever_it_starts() -> void:
+	# As on a device with a touchscreen, whose first finger is the mouse, too.
+	var input := Input as Object
+	input.set("emulate_touch_from_mouse", true)
+	_view.size = Vector2i(720, 1280)
+	_interface.ui_scale = 1.75
+	await get_tree().process_frame
+	await get_tree().process_frame
+	var scroll: ScrollContainer = (
+		_interface.controls.find_children("*", "ScrollContainer", true, false)[0]
+	)
+	var button := _interface.controls.lobes
+	var from := button.get_global_transform_with_canvas() * (0.5 * button.size)
+	_drag(from, from - Vector2(0, 200))
+	input.set("emulate_touch_from_mouse", false)
+	assert_int(scroll.scroll_vertical).is_greater(50)
+	assert_bool(button.get_popup().visible).is_false()
 
 
 func test_sliders_are_dragged() -> void:

@@ -6,7 +6,7 @@ const SurfaceMesh := preload("res://demo/meshes/surface_mesh.gd")
 const Surfaces := preload("res://demo/meshes/surfaces.gd")
 const Teapot := preload("res://demo/meshes/teapot.obj")
 
-const SHAPES := [["sphere"], ["torus"], ["plate"], ["knot"]]
+const SHAPES := [["sphere"], ["torus"], ["plate"], ["knot"], ["vase"]]
 const STEP := 1e-3
 
 
@@ -18,6 +18,8 @@ func _surface(shape: String) -> Callable:
 			return Surfaces.plate.bind(0.8, 0.06, 0.06)
 		"knot":
 			return Surfaces.knot.bind(0.2, 0.1)
+		"vase":
+			return Surfaces.vase.bind(0.4, 1.05)
 	return Surfaces.sphere.bind(0.5)
 
 

@@ -91,6 +91,17 @@ func test_every_method_draws_every_environment() -> void:
 				# Not the same, and yet of the same things.
 				assert_float(_difference(picture, other)).is_between(2e-4, 0.2)
 			pictures.append(picture)
+		if _demo.is_live():
+			_check_rivals_on_our_map(pictures)
+
+
+# The captured map's levels blur more than those that the rivals' rules are for.
+func _check_rivals_on_our_map(pictures: Array[Image]) -> void:
+	for index: int in [0, 1]:
+		var place := Rect2i(_place_of(index).grow(-2.0))
+		for method: int in [Methods.Method.THESIS, Methods.Method.SAMPLES]:
+			var difference := _difference(pictures[Methods.Method.OURS], pictures[method], place)
+			assert_float(difference).is_less(0.03)
 
 
 func test_the_engines_own_material_gets_as_much_light() -> void:

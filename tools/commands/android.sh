@@ -84,7 +84,7 @@ export_pack() {
 list_pack() {
   expect_pack "$out/lobelight.pck" --present 'demo/demo.tscn' --present 'demo/build/tables/thesis_8.res' \
     --present 'bake/comparators/toral.gdshaderinc' --absent 'bake/*.gd' --absent 'bake/*.gdc' --absent 'bake/*.gd.remap' \
-    --absent 'bake/*.json' --absent 'tests/*' --absent 'tools/*' --absent 'demo/render_pictures*' --sizes "$out/sizes.json"
+    --absent 'bake/*.json' --absent 'tests/*' --absent 'tools/*' --absent 'demo/commands/*' --sizes "$out/sizes.json"
 }
 
 # run_demo ARCHITECTURE: the pack alone. Without its tables the demo goes on, and says so.

@@ -77,7 +77,7 @@ fi
 # draw_pictures OPTION…
 draw_pictures() {
   say "Drawing the demo (software renderers need some seconds a picture) …"
-  LOBELIGHT_CWD=$PWD godot_rendered "$renderer" --no-header --script res://demo/render_pictures.gd -- "$@"
+  LOBELIGHT_CWD=$PWD godot_rendered "$renderer" --no-header --script res://demo/commands/render_pictures.gd -- "$@"
 }
 
 # measure ENVIRONMENT: error and GPU time of the measured recipe, as ./dev compare has them.
@@ -114,7 +114,7 @@ if [[ -n $all_pictures ]]; then
 fi
 
 if [[ -n $engine_light ]]; then
-  godot_rendered forward_plus --no-header --script res://demo/engine_light.gd -- --out "$engine_light"
+  godot_rendered forward_plus --no-header --script res://demo/commands/engine_light.gd -- --out "$engine_light"
   say "$engine_light"
   exit
 fi
@@ -128,7 +128,7 @@ if $cost; then
   bash "$ROOT/tools/commands/mobile-cost.sh" --gpus adreno320,adreno630 --variants "$variants" \
     --json "$work/rows.json" --out "$work/mobile-cost" >&2
   say "Counting pixels …"
-  godot_rendered gl_compatibility --no-header --script res://bake/demo_coverage.gd -- --out "$work/coverage.json"
+  godot_rendered gl_compatibility --no-header --script res://demo/commands/coverage.gd -- --out "$work/coverage.json"
   "$PYTHON" "$ROOT/tools/demo/cost.py" --rows "$work/rows.json" --coverage "$work/coverage.json" --out "$out"
   exit
 fi

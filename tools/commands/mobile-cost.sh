@@ -15,7 +15,7 @@ usage: ./dev mobile-cost [--gpus NAME,NAME…] [--variants NAME,NAME…] [OPTION
                  build/mobile-cost/report with --gpus or --variants)
 
 Mesa's shader compilers run as on a phone, over a kernel that does nothing. A run that was stopped goes on: rows of
-build/mobile-cost/rows.json that were measured with the same sources and compilers are kept. Takes about five minutes.
+build/mobile-cost/rows.json that were measured with the same sources and compilers are kept. Takes some minutes.
 USAGE
 }
 

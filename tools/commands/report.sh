@@ -6,7 +6,7 @@ usage() {
   cat <<USAGE
 usage: ./dev report [--quick] [--minutes N] [--device] [--renderers R,R…] [--maps FILE,FILE…] [OPTIONS]
 
---quick          a few cases at 64 x 64 in the Mobile renderer, in two or three minutes
+--quick          a few cases at 64 x 64 in the Mobile renderer, in a few minutes
 --minutes N      measures no longer than that, and writes the report of what there is; what says the most is measured
                  first: the timed materials in every renderer. The same command goes on
 --device         times on the GPU of your display, added to what DIR has; 512 x 512, times at 1024 x 1024
@@ -23,7 +23,7 @@ usage: ./dev report [--quick] [--minutes N] [--device] [--renderers R,R…] [--m
                  --timing-rounds)
 
 A run that was stopped goes on: cases that DIR/compare/results.json has, measured with the same sources and maps, are
-kept. Takes about 20 minutes on two cores. The metric is that of ./dev compare, and the pictures are drawn by its code.
+kept. Takes about half an hour on two cores. The metric is that of ./dev compare, and the pictures are drawn by its code.
 Methods, materials, maps and settings are those of tools/report/cases.py.
 USAGE
 }

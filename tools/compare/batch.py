@@ -17,6 +17,7 @@ LEFT_OUT = (
     "addons/lobelight/bin/",
     "addons/lobelight/editor/",
     "bake/bake.gd",
+    "bake/bake_demo.gd",
     "bake/bake_tables.gd",
     "bake/compare.gd",
     "bake/recipes/",

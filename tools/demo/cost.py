@@ -2,7 +2,7 @@
 
     time = sum over surfaces (pixels · instructions a pixel) / (ALUs · clock)
 
-Pixels are those that each surface covers in the demo's picture (bake/demo_coverage.gd), instructions those that Mesa's
+Pixels are those that each surface covers in the demo's picture (demo/commands/coverage.gd), instructions those that Mesa's
 compilers make of the surface's shader (rows of `./dev mobile-cost`). Writes README.md and results.json.
 """
 
@@ -19,22 +19,23 @@ BACKDROP, SHADOWS = "Backdrop", "Shadows"
 
 @dataclass(frozen=True)
 class Gpu:
-    """`alus`: scalar multiply-adds a clock, the least and the most that is published; `clock` in MHz."""
+    """`alus`: scalar multiply-adds a clock, the least and the most that is published; `clock` in MHz; `rate`: both in words."""
 
     name: str
     label: str
     renderer: str
     alus: tuple[int, int]
     clock: int
-    source: str
+    rate: str
 
 
 GPUS = (
     Gpu("adreno320", "Adreno 320, Compatibility (2012; Galaxy S4)", "gl_compatibility", (64, 96), 450,
-        "64 to 96 units at 450 MHz (57.6 to 86.4 GFLOPS), as lists of Qualcomm's GPUs have it"),
+        "64 to 96 units at 450 MHz (57.6 to 86.4 GFLOPS)"),
     Gpu("adreno630", "Adreno 630, Mobile (2018; Snapdragon 845)", "mobile", (512, 512), 710,
-        "512 units at 710 MHz (727 GFLOPS), as lists of Qualcomm's GPUs have it"),
+        "512 units at 710 MHz (727 GFLOPS)"),
 )  # fmt: skip
+RATES = "Wikipedia's article *Adreno*, not Qualcomm's own; of the Adreno 320's units it has no certain number"
 # Frames a second that Töral 2015 reports on a Galaxy S4, by lobes.
 THESIS = {8: 30, 16: 20}
 
@@ -50,7 +51,7 @@ SURFACES = {
     "Torus": ANISOTROPIC,
     "Plinth": ISOTROPIC,
     BACKDROP: {"empty_backdrop": 1},
-    SHADOWS: {"empty": 1},
+    SHADOWS: {"empty_shadow": 1},
 }
 MORE_ISOTROPIC = {"gmm16_isotropic": 1, "gmm8_isotropic": -1}
 MORE_ANISOTROPIC = {"gmm16": 1, "gmm8": -1}
@@ -121,7 +122,8 @@ def write_report(frames: list[dict], mesa: str, out: Path) -> None:
         "- One instruction a clock and unit, none of them waiting: fetches from caches and memory, bandwidth, heat and",
         "  Qualcomm's own compiler are not in these figures. They rank better than they predict.",
     ]
-    lines += [f"- {gpu.label}: {gpu.source}." for gpu in GPUS]
+    lines += [f"- {gpu.label}: {gpu.rate}." for gpu in GPUS]
+    lines += [f"- These rates are those of {RATES}."]
     lines += [
         "- Shaders with 16 lobes are those with 8 and the difference of the rows with 16 and with 8 lobes.",
         "- The thesis' figures are of another scene, drawn by another program: they tell the order of magnitude.",
@@ -167,7 +169,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--variants", action="store_true", help="prints the rows of ./dev mobile-cost that are needed")
     parser.add_argument("--rows", type=Path, help="what ./dev mobile-cost --json wrote")
-    parser.add_argument("--coverage", type=Path, help="what bake/demo_coverage.gd wrote")
+    parser.add_argument("--coverage", type=Path, help="what demo/commands/coverage.gd wrote")
     parser.add_argument("--out", type=Path, help="the folder for README.md and results.json")
     arguments = parser.parse_args()
     if arguments.variants:

@@ -147,10 +147,12 @@ run_accuracy() {
   judge accuracy
 }
 
-# How ./dev mobile-cost reads what the compilers say.
+# How ./dev mobile-cost reads what the compilers say, and what ./dev demo --cost makes of it.
 run_cost() {
   run_logged cost in_time "$PYTHON" "$ROOT/tests/commands/mobile_cost_test.py"
   judge cost
+  run_logged demo-cost in_time "$PYTHON" "$ROOT/tests/commands/demo_cost_test.py"
+  judge demo-cost
 }
 
 # One scene in the three renderers.

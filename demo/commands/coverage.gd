@@ -1,10 +1,9 @@
-extends SceneTree
+extends "demo_command.gd"
 ## Counts what part of the demo's picture each of its surfaces covers, for `./dev demo --cost`:
 ## surfaces are drawn in plain colours, one each, and pixels counted.
 ##
 ## `--out FILE`: [code][{"layout", "width", "height", "shares": {surface: part}}][/code].
 
-const DemoScene := preload("res://demo/demo.tscn")
 const DemoRoot := preload("res://demo/demo.gd")
 const DemoObject := preload("res://demo/demo_object.gd")
 ## Of a Galaxy S4, halved; shares do not depend on it.
@@ -16,35 +15,18 @@ const BACKDROP := "Backdrop"
 ## Soft shadows, which are drawn over the plinth.
 const SHADOWS := "Shadows"
 
-var _arguments := CommandLine.new("demo", ["out"])
 var _view := SubViewport.new()
 var _demo: DemoRoot
 
 
-func _initialize() -> void:
-	# The first frame has to be over before a coroutine may await the next one.
-	_run.call_deferred()
-
-
-func _run() -> void:
-	var out := _arguments.path("out")
-	_arguments.required("out")
-	if _arguments.error.is_empty():
-		_view.own_world_3d = true
-		_view.render_target_update_mode = SubViewport.UPDATE_DISABLED
-		root.add_child(_view)
-		_demo = DemoScene.instantiate()
-		_view.add_child(_demo)
-		(_demo.get_node("Interface") as CanvasLayer).hide()
-		_demo.compare_view.is_comparing = false
-		_demo.camera.environment = _plain()
-		var layouts: Array[Dictionary] = []
-		for layout in SIZES:
-			layouts.append(await _measure(layout))
-		_arguments.fail_if(AtomicFile.save_json(layouts, out))
-	if not _arguments.error.is_empty():
-		printerr(_arguments.error_line())
-	quit(0 if _arguments.error.is_empty() else 1)
+func _work(out: String) -> void:
+	_demo = _add_demo(_view)
+	(_demo.get_node("Interface") as CanvasLayer).hide()
+	_demo.camera.environment = _plain()
+	var layouts: Array[Dictionary] = []
+	for layout in SIZES:
+		layouts.append(await _measure(layout))
+	_arguments.fail_if(AtomicFile.save_json(layouts, out))
 
 
 func _plain() -> Environment:

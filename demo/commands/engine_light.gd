@@ -1,8 +1,8 @@
-extends SceneTree
+extends "demo_command.gd"
 ## Draws what the engine's own light makes of a [LobeMaterial3D], beside Godot's material in the
 ## same scenes, as one picture: `./dev demo --engine-light FILE`.
 
-const PictureFile := preload("res://demo/picture_file.gd")
+const PictureFile := preload("picture_file.gd")
 const SKY := preload("res://demo/environments/hall.exr")
 const TILE := Vector2i(440, 300)
 const COLUMNS := 3
@@ -12,26 +12,10 @@ const CASES: PackedStringArray = [
 	"Environment", "and a lamp", "and fog", "and a decal", "and a reflection probe", "and VoxelGI"
 ]
 
-var _arguments := CommandLine.new("demo", ["out"])
 var _environment: LobeEnvironment3D
 
 
-func _initialize() -> void:
-	# The first frame has to be over before a coroutine may await the next one.
-	_run.call_deferred()
-
-
-func _run() -> void:
-	var out := _arguments.path("out")
-	_arguments.required("out")
-	if _arguments.error.is_empty():
-		await _draw(out)
-	if not _arguments.error.is_empty():
-		printerr(_arguments.error_line())
-	quit(0 if _arguments.error.is_empty() else 1)
-
-
-func _draw(out: String) -> void:
+func _work(out: String) -> void:
 	@warning_ignore("integer_division")
 	var rows := (CASES.size() + COLUMNS - 1) / COLUMNS
 	var sheet := SubViewport.new()

@@ -1,12 +1,11 @@
-extends SceneTree
+extends "demo_command.gd"
 ## Draws the demo and saves the pictures: the second half of [code]./dev demo[/code], and all of
 ## [code]./dev demo --pictures[/code].
 
-const DemoScene := preload("res://demo/demo.tscn")
 const DemoRoot := preload("res://demo/demo.gd")
 const Interface := preload("res://demo/interface/interface.gd")
 const Methods := preload("res://demo/methods.gd")
-const PictureFile := preload("res://demo/picture_file.gd")
+const PictureFile := preload("picture_file.gd")
 const LANDSCAPE := Vector2i(1280, 720)
 const PORTRAIT := Vector2i(720, 1280)
 ## Pixels of a unit of the interface in portrait, as a phone's density has them.
@@ -42,39 +41,26 @@ class Picture:
 		return "_".join(words)
 
 
-var _arguments := CommandLine.new("demo", ["out", "env", "json", "all"])
 var _viewport := SubViewport.new()
 var _demo: DemoRoot
 
 
-func _initialize() -> void:
-	# The first frame has to be over before a coroutine may await the next one.
-	_run.call_deferred()
+func _own_options() -> PackedStringArray:
+	return ["env", "json", "all"]
 
 
-func _run() -> void:
-	var out := _arguments.path("out")
-	_arguments.required("out")
-	var pictures: Array[Dictionary] = []
-	if _arguments.error.is_empty():
-		pictures = await _draw_all(out)
+func _work(out: String) -> void:
+	var pictures := await _draw_all(out)
 	if _arguments.error.is_empty() and _arguments.has("json"):
 		_arguments.fail_if(AtomicFile.save_json(pictures, _arguments.path("json")))
-	if not _arguments.error.is_empty():
-		printerr(_arguments.error_line())
-	quit(0 if _arguments.error.is_empty() else 1)
 
 
 func _draw_all(out: String) -> Array[Dictionary]:
-	_viewport.own_world_3d = true
 	_viewport.msaa_3d = Viewport.MSAA_4X
 	# Without it Mobile keeps colours in ten bits, which end at 2.
 	_viewport.use_hdr_2d = true
 	_viewport.size = LANDSCAPE
-	_viewport.render_target_update_mode = SubViewport.UPDATE_DISABLED
-	root.add_child(_viewport)
-	_demo = DemoScene.instantiate()
-	_viewport.add_child(_demo)
+	_demo = _add_demo(_viewport)
 
 	var pictures: Array[Dictionary] = []
 	var line := ProgressLine.new("drawing")
@@ -140,6 +126,8 @@ func _draw(picture: Picture) -> void:
 	var interface: Interface = _demo.get_node("Interface")
 	interface.ui_scale = PORTRAIT_SCALE if picture.size == PORTRAIT else 1.0
 	interface.visible = picture.has_interface
+	# A still picture has none.
+	interface.shows_times = false
 	if _demo.environment_index != picture.environment:
 		_demo.environment_index = picture.environment
 	_demo.left_method = picture.left
