@@ -4,7 +4,8 @@ set(LOBELIGHT_ZIG "" CACHE FILEPATH "Program of Zig 0.15")
 set(LOBELIGHT_TARGET "" CACHE STRING "System and processor, as lobelight.gdextension names them")
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES LOBELIGHT_ZIG LOBELIGHT_TARGET)
 
-# The oldest systems that are promised: glibc of Debian 10 and RHEL 8; the engine asks for macOS 11 on arm64.
+# The oldest systems that are promised: glibc of Debian 10 and RHEL 8; macOS 10.15, the first with C++17's files, and 11
+# on arm64, which the engine asks for.
 if(LOBELIGHT_TARGET STREQUAL "linux.x86_64")
   set(CMAKE_SYSTEM_NAME Linux)
   set(_triple x86_64-linux-gnu.2.28)
@@ -14,6 +15,12 @@ elseif(LOBELIGHT_TARGET STREQUAL "linux.arm64")
 elseif(LOBELIGHT_TARGET STREQUAL "windows.x86_64")
   set(CMAKE_SYSTEM_NAME Windows)
   set(_triple x86_64-windows-gnu)
+elseif(LOBELIGHT_TARGET STREQUAL "windows.arm64")
+  set(CMAKE_SYSTEM_NAME Windows)
+  set(_triple aarch64-windows-gnu)
+elseif(LOBELIGHT_TARGET STREQUAL "macos.x86_64")
+  set(CMAKE_SYSTEM_NAME Darwin)
+  set(_triple x86_64-macos.10.15)
 elseif(LOBELIGHT_TARGET STREQUAL "macos.arm64")
   set(CMAKE_SYSTEM_NAME Darwin)
   set(_triple aarch64-macos.11.0)

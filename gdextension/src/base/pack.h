@@ -12,9 +12,9 @@
 // branches and without calls: what comes out depends neither on how many elements a pack has nor on
 // which variant of the system's library a processor selects (build with -ffp-contract=off).
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__)
 // Packs are passed between inlined functions only, so it does not matter how they would be passed
-// otherwise. GCC warns where a template is instantiated: the pragma has to outlast this file.
+// otherwise. Compilers warn where a template is instantiated: the pragma has to outlast this file.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
