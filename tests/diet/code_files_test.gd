@@ -3,22 +3,25 @@ extends GdUnitTestSuite
 
 const CodeFiles := preload("res://addons/lobelight/editor/export/code_files.gd")
 const Diet := preload("res://addons/lobelight/editor/export/diet.gd")
+const OnDemand := preload("res://addons/lobelight/runtime/on_demand.gd")
 const ProjectFiles := preload("res://addons/lobelight/editor/export/project_files.gd")
 const SCENES := "res://tests/diet/scenes/"
 const RUN_TIME := "res://addons/lobelight/runtime/"
 const SHADERS := RUN_TIME + "shaders/"
 const FEATURES: PackedStringArray = [
-	"clear_coat.gdshaderinc",
-	"diffuse.gdshaderinc",
-	"pyramid_reduce.gdshader",
-	"pyramid_views.gdshader",
+	"shaders/clear_coat.gdshaderinc",
+	"shaders/diffuse.gdshaderinc",
+	"shaders/pyramid_reduce.gdshader",
+	"shaders/pyramid_views.gdshader",
+	"world_views.gd",
+	"material_conversion.gd",
 ]
 
 ## A scene, and which of FEATURES it needs.
 const NEEDS := [
 	["isotropic", []],
-	["anisotropic", [3]],
-	["everything", [0, 1, 2, 3]],
+	["anisotropic", [3, 4]],
+	["everything", [0, 1, 2, 3, 4]],
 ]
 
 ## A line of a script, and which of FEATURES it may ask for.
@@ -27,9 +30,19 @@ const ASKING := [
 	["material.clearcoat_roughness = 0.3", [0]],
 	["material.metallic = 0.0", [1]],
 	["$Light.filter = 1", [2]],
-	["$Light.panorama = null", [3]],
-	["add_child(LobeEnvironment3D.new())", [3]],
-	["material.set(property, 0.1)", [0, 1, 2, 3]],
+	["$Light.panorama = null", [3, 4]],
+	["add_child(LobeEnvironment3D.new())", [3, 4]],
+	["material.set(property, 0.1)", [0, 1, 2, 3, 4]],
+	["LobeMaterial3D.get_losses_from(material)", [5]],
+	['material.call("to_standard")', [5]],
+]
+
+## Rendering methods of a project and whether the engine may fall back to OpenGL, and which cubes an
+## export needs: that of the rendering device, that of Compatibility.
+const RENDERERS := [
+	["mobile", "mobile", true, [true, true]],
+	["gl_compatibility", "gl_compatibility", true, [false, true]],
+	["gl_compatibility", "mobile", true, [true, true]],
 ]
 
 
@@ -37,13 +50,13 @@ func _code(scene: String) -> CodeFiles:
 	return Diet.of_files(ProjectFiles.of_scene(SCENES + scene + ".tscn")).code
 
 
-func test_shaders_of_features_that_nothing_reaches_are_empty(
+func test_files_of_features_that_nothing_reaches_stay_out(
 	scene: String, needed: Array, _test_parameters := NEEDS
 ) -> void:
 	_expect_features(ProjectFiles.of_scene(SCENES + scene + ".tscn"), needed)
 
 
-func test_scripts_keep_the_shaders_that_they_may_ask_for(
+func test_scripts_keep_the_files_that_they_may_ask_for(
 	line: String, needed: Array, _test_parameters := ASKING
 ) -> void:
 	var file := "user://diet_feature.gd"
@@ -55,10 +68,59 @@ func test_scripts_keep_the_shaders_that_they_may_ask_for(
 func _expect_features(files: PackedStringArray, needed: Array) -> void:
 	var code: CodeFiles = Diet.of_files(files).code
 	for feature in FEATURES.size():
-		var file := code.files[SHADERS + FEATURES[feature]]
-		assert_bool(file.bytes.size() < 30).is_equal(feature not in needed)
-		# A script loads it.
-		assert_int(file.after).is_greater(0)
+		var file := code.files[RUN_TIME + FEATURES[feature]]
+		assert_bool(file.after > 500).is_equal(feature in needed)
+		# A script preloads it.
+		if FEATURES[feature].ends_with(".gdshaderinc"):
+			assert_int(file.after).is_greater(0)
+		elif feature not in needed:
+			assert_int(file.after).is_equal(0)
+
+
+func test_what_features_alone_load_stays_out_with_them() -> void:
+	var code := _code("isotropic")
+	for name: String in ["six_views.gd", "sky_stage.gd", "surroundings.gd"]:
+		assert_int(code.files[RUN_TIME + name].after).is_equal(0)
+		assert_int(_code("anisotropic").files[RUN_TIME + name].after).is_greater(500)
+
+
+# Only the editor asks for them.
+func test_no_export_has_the_warnings() -> void:
+	for scene: String in ["isotropic", "everything"]:
+		assert_int(_code(scene).files[RUN_TIME + "environment_warnings.gd"].after).is_equal(0)
+
+
+func test_scenes_may_declare_features() -> void:
+	var scene := Node.new()
+	scene.set_meta("lobelight_features", [OnDemand.CONVERSION, OnDemand.SKIES])
+	var packed := PackedScene.new()
+	packed.pack(scene)
+	scene.free()
+	var file := "user://diet_declared.tscn"
+	ResourceSaver.save(packed, file)
+	_expect_features(PackedStringArray([SCENES + "isotropic.tscn", file]), [3, 4, 5])
+	DirAccess.remove_absolute(file)
+
+
+func test_renderers_that_no_system_has_stay_out(
+	method: String, mobile: String, fallback: bool, kept: Array, _test_parameters := RENDERERS
+) -> void:
+	var settings := {
+		"rendering/renderer/rendering_method": method,
+		"rendering/renderer/rendering_method.mobile": mobile,
+		"rendering/rendering_device/fallback_to_opengl3": fallback,
+	}
+	var before := {}
+	for setting: String in settings:
+		before[setting] = ProjectSettings.get_setting(setting)
+		ProjectSettings.set_setting(setting, settings[setting])
+	var code := _code("isotropic")
+	for setting: String in before:
+		ProjectSettings.set_setting(setting, before[setting])
+	var names: PackedStringArray = ["gpu_cube.gd", "packed_cube.gd"]
+	for cube in 2:
+		assert_bool(code.files[RUN_TIME + names[cube]].after > 500).is_equal(kept[cube])
+	assert_bool(code.files[RUN_TIME + "owned_cubemap.gd"].after > 0).is_equal(kept[0])
 
 
 func test_shaders_lose_their_comments_and_nothing_else() -> void:

@@ -9,7 +9,7 @@ const _LEAST_COMPONENT := 0.57735027
 var cubemap: TextureLayered
 ## Texels along the side of a face.
 var size := 1
-## How much the levels blur: c in shaders/environment.gdshaderinc.
+## How much the levels blur: c in shaders/environment.gdshaderinc; at first that of 2 × 2 means.
 var level_variance := 1.0 / 12.0
 ## How much level 0 is blurred: b in shaders/environment.gdshaderinc.
 var base_variance := 0.0

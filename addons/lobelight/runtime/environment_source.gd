@@ -9,29 +9,38 @@ enum Kind { NONE, PANORAMA, SKY_PANORAMA, SKY_VIEWS, SCENE_VIEWS }
 const EnvironmentLight := preload("environment_light.gd")
 const Pyramid := preload("pyramid.gd")
 const PyramidChain := preload("pyramid_chain.gd")
-const SixViews := preload("six_views.gd")
-const SkyStage := preload("sky_stage.gd")
-const Surroundings := preload("surroundings.gd")
+const WorldLight := preload("world_light.gd")
 
 ## Where nothing says how fine the light is.
 const DEFAULT_SIZE := 256
 # Pixels of a view along the side of a texel. Skies have suns of few texels; scenes cost more.
 const _SKY_SAMPLES := 2
 const _SCENE_SAMPLES := 1
-# The sky has no depth.
-const _SKY_NEAR := 0.05
-const _SKY_FAR := 10.0
 
 var _node: LobeEnvironment3D
 var _kind := Kind.NONE
-var _surroundings: Surroundings
-var _stage: SkyStage
+# Null while the light is that of the node's own panorama.
+var _world: WorldLight
 # What the last chain was made for.
 var _key: Array = []
 
 
 func _init(node: LobeEnvironment3D) -> void:
 	_node = node
+
+
+## Which part of the run time it would take that this export has left out, in a sentence; empty if
+## none.
+func find_loss() -> String:
+	var losses: Array[String] = [
+		PyramidChain.find_loss(), Pyramid.find_loss(_node.filter as Pyramid.Filter)
+	]
+	if not _takes_panorama():
+		losses.append(WorldLight.find_loss())
+	for loss in losses:
+		if loss:
+			return loss
+	return ""
 
 
 ## Why there is no light to be had, in a sentence; empty if there is.
@@ -53,20 +62,15 @@ func find_obstacle() -> String:
 ## Looks at the source as it is now; whether it shows something else than at the last look. A turned
 ## sky panorama or another energy of it shows the same, see [method place].
 func look() -> bool:
+	if _takes_panorama():
+		_world = null
+	elif _world == null:
+		_world = WorldLight.of(_node)
 	var kind := _find_kind()
 	var changed := kind != _kind
-	if changed:
-		_kind = kind
-		_stage = null
-		_surroundings = null
-	if kind >= Kind.SKY_PANORAMA and _surroundings == null:
-		_surroundings = Surroundings.new(_node, kind == Kind.SCENE_VIEWS)
-	if kind == Kind.SKY_VIEWS and _stage == null:
-		_stage = SkyStage.new(_node)
-	if kind >= Kind.SKY_VIEWS:
-		changed = _surroundings.update() or changed
-	if _stage != null:
-		changed = _stage.update() or changed
+	_kind = kind
+	if _world != null:
+		changed = _world.look(_get_views()) or changed
 	return _make_key() != _key or changed
 
 
@@ -74,20 +78,15 @@ func look() -> bool:
 func make_chain(chain: PyramidChain) -> PyramidChain:
 	var key := _make_key()
 	if chain != null and key == _key:
-		_place(chain.views)
+		if chain.views != null:
+			_world.place(chain.views)
 		return chain
 	_key = key
 	var filter := _node.filter as Pyramid.Filter
 	if _kind >= Kind.SKY_VIEWS:
 		var size: int = _node.size if _node.size > 0 else DEFAULT_SIZE
-		var is_sky := _kind == Kind.SKY_VIEWS
-		var samples := _SKY_SAMPLES if is_sky else _SCENE_SAMPLES
-		var world := _node.get_world_3d()
-		var scenario := _stage.scenario if is_sky else world.scenario
-		var owner: RefCounted = _stage if is_sky else world
-		var environment := _surroundings.copy
-		var views := SixViews.new(samples * size, scenario, owner, environment, not is_sky)
-		_place(views)
+		var samples := _SKY_SAMPLES if _kind == Kind.SKY_VIEWS else _SCENE_SAMPLES
+		var views := _world.make_views(samples, size)
 		chain = PyramidChain.new(views)
 		chain.pyramid.set_up_views(views.get_textures(), samples, size, filter)
 	else:
@@ -110,11 +109,11 @@ func place(light: EnvironmentLight, kind: Kind) -> bool:
 	var rotation := light.rotation if kind == Kind.PANORAMA else Basis.IDENTITY
 	if kind == Kind.PANORAMA and _node.is_inside_tree():
 		rotation = _node.global_basis.orthonormalized()
-	elif kind == Kind.SKY_PANORAMA and _surroundings != null:
-		if not _node.is_inside_tree() or _surroundings.find_panorama() == null:
+	elif kind == Kind.SKY_PANORAMA and _world != null:
+		if not _node.is_inside_tree() or _world.find_panorama() == null:
 			return false
-		energy *= _surroundings.find_panorama_energy()
-		rotation = _surroundings.find_sky_rotation()
+		energy *= _world.find_panorama_energy()
+		rotation = _world.find_sky_rotation()
 	if light.energy == energy and light.rotation == rotation:
 		return false
 	light.energy = energy
@@ -128,8 +127,7 @@ func get_kind() -> Kind:
 
 ## To be called when the node leaves its world; whether its light has been that world's.
 func leave_world() -> bool:
-	_surroundings = null
-	_stage = null
+	_world = null
 	return _kind != Kind.PANORAMA and _kind != Kind.NONE
 
 
@@ -147,12 +145,20 @@ func _find_kind() -> Kind:
 	# Compatibility takes the colours of skies for sRGB. What comes of that, views show.
 	if _is_compatibility():
 		return Kind.SKY_VIEWS
-	var surroundings := _surroundings if _surroundings != null else Surroundings.new(_node, false)
-	return Kind.SKY_VIEWS if surroundings.find_panorama() == null else Kind.SKY_PANORAMA
+	return Kind.SKY_VIEWS if _world.find_panorama() == null else Kind.SKY_PANORAMA
+
+
+func _get_views() -> WorldLight.Views:
+	match _kind:
+		Kind.SKY_VIEWS:
+			return WorldLight.Views.SKY
+		Kind.SCENE_VIEWS:
+			return WorldLight.Views.SCENE
+	return WorldLight.Views.NONE
 
 
 func _find_panorama() -> Texture2D:
-	return _node.panorama if _kind == Kind.PANORAMA else _surroundings.find_panorama()
+	return _node.panorama if _kind == Kind.PANORAMA else _world.find_panorama()
 
 
 func _make_key() -> Array:
@@ -162,19 +168,6 @@ func _make_key() -> Array:
 	var texture := panorama.get_rid() if panorama != null else RID()
 	var width := panorama.get_width() if panorama != null else 0
 	return [_kind, _node.size, _node.filter, _node.measure_cost, texture, width]
-
-
-func _place(views: SixViews) -> void:
-	if _kind == Kind.SCENE_VIEWS:
-		views.place(
-			_node.global_position, _node.capture_near, _node.capture_far, _node.capture_cull_mask
-		)
-	elif _kind == Kind.SKY_VIEWS:
-		# From where the camera is, since shaders may ask.
-		var camera := _surroundings.find_camera()
-		var origin := camera.global_position if camera != null else _node.global_position
-		var mask := camera.cull_mask if camera != null else 0xFFFFF
-		views.place(origin, _SKY_NEAR, _SKY_FAR, mask)
 
 
 static func _is_compatibility() -> bool:

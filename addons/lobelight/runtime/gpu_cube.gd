@@ -9,11 +9,6 @@ const OwnedCubemap := preload("owned_cubemap.gd")
 var _copy: Callable
 
 
-## Whether the renderer has what it takes.
-static func is_supported() -> bool:
-	return RenderingServer.get_rendering_device() != null
-
-
 func _init(size: int, levels: Array[CanvasPass]) -> void:
 	var format := RDTextureFormat.new()
 	format.texture_type = RenderingDevice.TEXTURE_TYPE_CUBE

@@ -79,7 +79,6 @@ enum Filter {
 
 const EnvironmentLight := preload("environment_light.gd")
 const EnvironmentSource := preload("environment_source.gd")
-const EnvironmentWarnings := preload("environment_warnings.gd")
 const LightRegistry := preload("light_registry.gd")
 const Pyramid := preload("pyramid.gd")
 const PyramidChain := preload("pyramid_chain.gd")
@@ -253,9 +252,12 @@ func _validate_property(property: Dictionary) -> void:
 		property.usage &= ~PROPERTY_USAGE_EDITOR
 
 
-# The engine asks in the editor only.
+# The engine asks in the editor only; what answers is in no export.
 func _get_configuration_warnings() -> PackedStringArray:
-	return EnvironmentWarnings.of(self, get_tree().edited_scene_root if is_inside_tree() else null)
+	const WARNINGS := "res://addons/lobelight/runtime/environment_warnings.gd"
+	if not ResourceLoader.exists(WARNINGS):
+		return []
+	return load(WARNINGS).of(self, get_tree().edited_scene_root if is_inside_tree() else null)
 
 
 ## Whether the node is the one that lights its world.
@@ -291,7 +293,6 @@ func get_rebuild_error() -> String:
 ## [method get_rebuild_error].
 func rebuild() -> bool:
 	if not _begin(_WHOLE):
-		_warn_of_error()
 		return false
 	# Not for the node's own signal, so that the caller may free it then. A later call may start the
 	# update anew; its result is this one's too.
@@ -337,8 +338,7 @@ func _start_if_due() -> void:
 		if not _stale:
 			return
 	var is_sliced := update_mode == UpdateMode.TIME_SLICED and _light != null
-	if not _begin(0 if is_sliced else _WHOLE):
-		_warn_of_error()
+	_begin(0 if is_sliced else _WHOLE)
 
 
 # Starts an update from its first slice, instead of one under way.
@@ -346,9 +346,17 @@ func _begin(slice: int) -> bool:
 	_stale = false
 	_running = false
 	_error = _source.find_obstacle()
+	var loss := _source.find_loss() if _error.is_empty() else ""
+	if loss:
+		_error = loss
 	if _error:
 		_chain = null
 		_set_light(null)
+		if loss:
+			push_error("LobeEnvironment3D: " + loss)
+		# A panorama that is not set yet is no reason to warn.
+		elif panorama != null or source == Source.SKY or source == Source.CAPTURE:
+			push_warning("LobeEnvironment3D: " + _error)
 		return false
 	_source.look()
 	_chain = _source.make_chain(_chain)
@@ -356,12 +364,6 @@ func _begin(slice: int) -> bool:
 	_running = true
 	_drawn = false
 	return true
-
-
-# A panorama that is not set yet is no reason to warn.
-func _warn_of_error() -> void:
-	if panorama != null or source == Source.SKY or source == Source.CAPTURE:
-		push_warning("LobeEnvironment3D: " + _error)
 
 
 func _on_frame_post_draw() -> void:

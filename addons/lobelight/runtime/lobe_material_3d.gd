@@ -66,8 +66,8 @@ enum EmissionOperator {
 	MULTIPLY,  ## The colour times the texture.
 }
 
+const Conversion := preload("conversion.gd")
 const LightRegistry := preload("light_registry.gd")
-const MaterialConversion := preload("material_conversion.gd")
 const MaterialParameters := preload("material_parameters.gd")
 const MaterialShader := preload("material_shader.gd")
 const TableChoice := preload("table_choice.gd")
@@ -360,14 +360,19 @@ static func widths_of(roughness_of_surface: float, anisotropy_of_surface: float)
 
 ## A material with the look of one of Godot's, a [StandardMaterial3D] or an [ORMMaterial3D], and the
 ## same textures. [method get_losses_from] names what it does not take over.
+## [br][br]
+## Exports have this method, that one and [method to_standard] where a script of the project names
+## one of them; elsewhere they give [code]null[/code] and nothing, with an error.
 static func from_standard(source: BaseMaterial3D) -> LobeMaterial3D:
-	return MaterialConversion.from_standard(source)
+	var conversion: Conversion = Conversion.find()
+	return conversion.from_standard(source) if conversion != null else null
 
 
 ## The properties of a material of Godot's that [method from_standard] cannot take over and that are
 ## not at their defaults.
 static func get_losses_from(source: BaseMaterial3D) -> PackedStringArray:
-	return MaterialConversion.get_losses(source)
+	var conversion: Conversion = Conversion.find()
+	return conversion.get_losses(source) if conversion != null else PackedStringArray()
 
 
 func _init() -> void:
@@ -421,7 +426,8 @@ func get_fetches() -> Dictionary[String, int]:
 ## texture says all about roughness and metal, otherwise a [StandardMaterial3D]. Anisotropy above 1
 ## becomes 1, and a [member table] gives its widths only.
 func to_standard() -> BaseMaterial3D:
-	return MaterialConversion.to_standard(self)
+	var conversion: Conversion = Conversion.find()
+	return conversion.to_standard(self) if conversion != null else null
 
 
 ## The path of the shader include that has the fragment function. Materials that draw something else

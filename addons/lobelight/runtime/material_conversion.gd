@@ -1,5 +1,5 @@
 @tool
-extends Object
+extends "conversion.gd"
 ## Between Godot's own materials and [LobeMaterial3D]; see [method LobeMaterial3D.from_standard] and
 ## [method LobeMaterial3D.to_standard].
 
@@ -55,7 +55,7 @@ const _LOST: Dictionary[StringName, Variant] = {
 }
 
 
-static func from_standard(source: BaseMaterial3D) -> LobeMaterial3D:
+func from_standard(source: BaseMaterial3D) -> LobeMaterial3D:
 	var made := LobeMaterial3D.new()
 	_copy(source, made)
 	made.albedo = source.albedo_color
@@ -83,7 +83,7 @@ static func from_standard(source: BaseMaterial3D) -> LobeMaterial3D:
 	return made
 
 
-static func to_standard(source: LobeMaterial3D) -> BaseMaterial3D:
+func to_standard(source: LobeMaterial3D) -> BaseMaterial3D:
 	var packed := (
 		source.orm_texture != null
 		and source.roughness == 1.0
@@ -118,7 +118,7 @@ static func to_standard(source: LobeMaterial3D) -> BaseMaterial3D:
 	return made
 
 
-static func get_losses(source: BaseMaterial3D) -> PackedStringArray:
+func get_losses(source: BaseMaterial3D) -> PackedStringArray:
 	var losses: PackedStringArray = []
 	for name in _LOST:
 		if source.get(name) != _LOST[name]:

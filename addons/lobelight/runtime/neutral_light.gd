@@ -4,7 +4,6 @@ extends RefCounted
 ## light, a grey horizon and a dark floor.
 
 const EnvironmentLight := preload("environment_light.gd")
-const Pyramid := preload("pyramid.gd")
 
 const SIZE := 16
 const CEILING := Color(0.9, 0.95, 1.0)
@@ -24,9 +23,8 @@ static func make() -> EnvironmentLight:
 		faces.append(_make_face(face))
 	light.cubemap.create_from_images(faces)
 	light.size = SIZE
-	# generate_mipmaps takes 2 × 2 means. Their texels shrink towards the corners of the cube, which
-	# in light as soft as this does not show.
-	light.level_variance = Pyramid.LEVEL_VARIANCES[Pyramid.Filter.BOX]
+	# generate_mipmaps takes 2 × 2 means, for which the level's variance is right as it is. Their
+	# texels shrink towards the corners of the cube, which in light as soft as this does not show.
 	light.is_even = true
 	return light
 

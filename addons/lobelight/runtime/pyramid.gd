@@ -9,11 +9,12 @@ extends RefCounted
 enum Filter { BOX, BINOMIAL, GAUSSIAN, DISC }
 
 const CanvasPass := preload("canvas_pass.gd")
+const OnDemand := preload("on_demand.gd")
 
 const PanoramaShader := preload("shaders/pyramid_panorama.gdshader")
-const ViewsShader := preload("shaders/pyramid_views.gdshader")
 const RoundShader := preload("shaders/pyramid_round.gdshader")
-const ReduceShader := preload("shaders/pyramid_reduce.gdshader")
+const _VIEWS_SHADER := "res://addons/lobelight/runtime/shaders/pyramid_views.gdshader"
+const _REDUCE_SHADER := "res://addons/lobelight/runtime/shaders/pyramid_reduce.gdshader"
 
 ## By filter, a third of the variance that a level's kernel has per axis, in solid angles of the
 ## finer level's texels: c in shaders/environment.gdshaderinc.
@@ -71,6 +72,11 @@ static func is_round(filter: Filter) -> bool:
 	return filter == Filter.GAUSSIAN or filter == Filter.DISC
 
 
+## Why levels cannot be made by a filter in this export; empty if they can.
+static func find_loss(used_filter: Filter) -> String:
+	return "" if is_round(used_filter) else OnDemand.find_loss(_REDUCE_SHADER, OnDemand.FILTERS)
+
+
 ## The size chosen for a panorama where none is asked for: its width up to a power of two. That is
 ## four texels along one of the panorama's, so that the sharpest lobes, no wider than these, are
 ## looked up between blurred levels.
@@ -118,7 +124,8 @@ func set_up_views(views: Array[RID], samples: int, face_size: int, used_filter: 
 	var parameters: Dictionary[StringName, Variant] = {&"face_size": face_size, &"samples": samples}
 	for face in 6:
 		parameters[StringName("view_%d" % face)] = views[face]
-	_set_up_levels(face_size, used_filter, ViewsShader, parameters)
+	var shader: Shader = OnDemand.fetch(_VIEWS_SHADER, OnDemand.SKIES)
+	_set_up_levels(face_size, used_filter, shader, parameters)
 
 
 ## Has levels [param first] to [param last] drawn in the next frame, all of them by default.
@@ -146,7 +153,7 @@ func _set_up_levels(
 			_add_level(level_size, RoundShader, level)
 		else:
 			level[&"binomial"] = filter == Filter.BINOMIAL
-			_add_level(level_size, ReduceShader, level)
+			_add_level(level_size, OnDemand.fetch(_REDUCE_SHADER, OnDemand.FILTERS), level)
 		level_size >>= 1
 
 

@@ -8,14 +8,16 @@ extends RefCounted
 ## last slice. Updates allocate nothing on the GPU.
 
 const EnvironmentLight := preload("environment_light.gd")
-const GpuCube := preload("gpu_cube.gd")
-const PackedCube := preload("packed_cube.gd")
+const FaceViews := preload("face_views.gd")
+const OnDemand := preload("on_demand.gd")
 const Pyramid := preload("pyramid.gd")
 const PyramidCube := preload("pyramid_cube.gd")
-const SixViews := preload("six_views.gd")
+
+const _GPU_CUBE := "res://addons/lobelight/runtime/gpu_cube.gd"
+const _PACKED_CUBE := "res://addons/lobelight/runtime/packed_cube.gd"
 
 ## Null if the light comes from a panorama.
-var views: SixViews
+var views: FaceViews
 var pyramid := Pyramid.new()
 var cube: PyramidCube
 ## Milliseconds that the processor spent on the last update's transfer to the cube map.
@@ -24,16 +26,25 @@ var transfer_time := 0.0
 var _light: EnvironmentLight
 
 
-func _init(drawn_views: SixViews = null) -> void:
+func _init(drawn_views: FaceViews = null) -> void:
 	views = drawn_views
+
+
+## Why there can be no cube map in this export; empty if there can.
+static func find_loss() -> String:
+	if _stays_on_gpu():
+		return OnDemand.find_loss(_GPU_CUBE, OnDemand.RENDERING_DEVICE)
+	return OnDemand.find_loss(_PACKED_CUBE, OnDemand.COMPATIBILITY)
 
 
 ## To be called once the pyramid has been set up.
 func make_cube() -> void:
-	if GpuCube.is_supported():
-		cube = GpuCube.new(pyramid.size, pyramid.levels)
+	var script: GDScript
+	if _stays_on_gpu():
+		script = OnDemand.fetch(_GPU_CUBE, OnDemand.RENDERING_DEVICE)
 	else:
-		cube = PackedCube.new(pyramid.size, pyramid.levels)
+		script = OnDemand.fetch(_PACKED_CUBE, OnDemand.COMPATIBILITY)
+	cube = script.new(pyramid.size, pyramid.levels)
 
 
 ## Frames that an update takes if it is spread over frames.
@@ -98,6 +109,11 @@ func get_gpu_time() -> float:
 	for viewport in _get_viewports():
 		time += RenderingServer.viewport_get_measured_render_time_gpu(viewport)
 	return time
+
+
+# Whether the renderer can copy into cube maps.
+static func _stays_on_gpu() -> bool:
+	return RenderingServer.get_rendering_device() != null
 
 
 func _get_viewports() -> Array[RID]:

@@ -1,5 +1,5 @@
 @tool
-extends RefCounted
+extends "face_views.gd"
 ## Six cameras that see everything around a point, for level 0 of a pyramid.
 ##
 ## They draw linear light up to 65504, and in Compatibility the engine's encoding of it. The views
@@ -19,7 +19,6 @@ const _UP: PackedVector3Array = [
 
 ## Pixels along the side of a view.
 var size: int
-var viewports: Array[RID] = []
 
 var _cameras: Array[RID] = []
 # What the views need on the rendering server: kept until they have gone.
@@ -68,15 +67,3 @@ func place(origin: Vector3, near: float, far: float, cull_mask: int) -> void:
 		server.camera_set_transform(_cameras[face], Transform3D(basis, origin))
 		server.camera_set_perspective(_cameras[face], 90.0, near, far)
 		server.camera_set_cull_mask(_cameras[face], cull_mask)
-
-
-## Has a face's view drawn in the next frame.
-func draw(face: int) -> void:
-	RenderingServer.viewport_set_update_mode(viewports[face], RenderingServer.VIEWPORT_UPDATE_ONCE)
-
-
-func get_textures() -> Array[RID]:
-	var textures: Array[RID] = []
-	for viewport in viewports:
-		textures.append(RenderingServer.viewport_get_texture(viewport))
-	return textures

@@ -3,21 +3,19 @@ extends RefCounted
 ## Which files of the run time an export needs, and how short they can be.
 ##
 ## A script or shader that nothing names, neither the project's files nor a file of the run time
-## that is needed, stays out. Shaders of features that nothing reaches (features.gd) have to be
-## there, because scripts load them, but go along empty. The others lose their comments; scripts
-## lose theirs by the engine.
+## that is needed, stays out, and so do files of features that nothing reaches (features.gd) if they
+## are loaded on demand. The shader includes of such features have to be there, because materials
+## preload them, but go along empty. What stays loses its comments; scripts do so by the engine.
 
 const Features := preload("features.gd")
+const ProjectFiles := preload("project_files.gd")
 
 const ADDON := "res://addons/lobelight/"
 const RUN_TIME := ADDON + "runtime/"
 const SHADERS := RUN_TIME + "shaders/"
 const TABLE_SET := RUN_TIME + "lobe_table_set.gd"
 const CODE: PackedStringArray = ["gd", "gdshader", "gdshaderinc"]
-const EMPTY: Dictionary[String, String] = {
-	"gdshader": "shader_type canvas_item;\n",
-	"gdshaderinc": "\n",
-}
+const EMPTY_INCLUDE := "\n"
 # What names others without being resources.
 const TEXTS: PackedStringArray = ["gd", "cs", "gdshader", "gdshaderinc"]
 
@@ -49,6 +47,7 @@ var _word := RegEx.create_from_string("\\b[A-Z]\\w+\\b")
 static func of_files(project_files: PackedStringArray, features: Features) -> RefCounted:
 	var code := new()
 	code._features = features
+	features.look_at_renderers()
 	code._list(RUN_TIME)
 	for entry: Dictionary in ProjectSettings.get_global_class_list():
 		var path: String = entry["path"]
@@ -76,9 +75,10 @@ static func strip(code: String) -> String:
 		return code
 	var kept := ""
 	for line in code.split("\n"):
-		# Paths of other files may hold what elsewhere begins a comment.
-		var text := line if "#include" in line else line.get_slice("//", 0)
-		text = text.strip_edges()
+		var text := line.strip_edges()
+		# The only strings of shaders are paths of others, which hold what elsewhere begins a comment.
+		if not text.begins_with("#include"):
+			text = text.get_slice("//", 0).strip_edges()
 		if text:
 			kept += text + "\n"
 	return kept
@@ -98,8 +98,8 @@ func _look_at(file: String) -> void:
 	if file.get_extension() in TEXTS:
 		_read(file, FileAccess.get_file_as_string(file))
 		return
-	for dependency in ResourceLoader.get_dependencies(file):
-		_need(dependency.get_slice("::", 2) if "::" in dependency else dependency, file)
+	for path in ProjectFiles.get_dependencies(file):
+		_need(path, file)
 
 
 func _read(file: String, text: String) -> void:
@@ -130,11 +130,11 @@ func _need(path: String, by: String) -> bool:
 		path = TABLE_SET
 	if not files.has(path):
 		return false
-	# What the project's own shaders name is not empty, even if the run time has named it before.
-	if _needed_by.has(path) and (by.begins_with(RUN_TIME) or not _is_empty(path)):
+	# What the project's own files name is whole, even if the run time has named it before.
+	if _needed_by.has(path) and (by.begins_with(RUN_TIME) or not _is_unreached(path)):
 		return true
 	_needed_by[path] = by
-	if _is_empty(path):
+	if _is_unreached(path):
 		return true
 	var code: PackedStringArray = []
 	for line in FileAccess.get_file_as_string(path).split("\n"):
@@ -144,28 +144,32 @@ func _need(path: String, by: String) -> bool:
 	return true
 
 
-# A file of a feature that nothing reaches, unless the project's own shaders name it.
-func _is_empty(path: String) -> bool:
-	var shader := path.trim_prefix(SHADERS)
-	if not Features.SHADERS.has(shader) or _features.reached.has(shader):
+# A file of a feature that nothing reaches, unless the project names it itself.
+func _is_unreached(path: String) -> bool:
+	var name := path.trim_prefix(RUN_TIME)
+	if not Features.FILES.has(name) or _features.reached.has(Features.FILES[name]):
 		return false
 	return _needed_by[path].begins_with(RUN_TIME)
 
 
 func _decide(path: String) -> void:
 	var file := files[path]
-	var shader := path.trim_prefix(SHADERS)
+	var feature: String = Features.FILES.get(path.trim_prefix(RUN_TIME), "")
 	file.after = file.before
 	if not _needed_by.has(path):
 		file.after = 0
 		file.why = "nothing names it"
-	elif _is_empty(path):
-		file.bytes = EMPTY[path.get_extension()].to_utf8_buffer()
-		file.why = "empty, nothing reaches %s" % Features.SHADERS[shader]
+	elif _is_unreached(path):
+		file.why = "nothing reaches %s" % feature
+		if path.get_extension() == "gdshaderinc":
+			file.bytes = EMPTY_INCLUDE.to_utf8_buffer()
+			file.why = "empty, " + file.why
+		else:
+			file.after = 0
 	elif path.begins_with(SHADERS):
 		file.bytes = strip(FileAccess.get_file_as_string(path)).to_utf8_buffer()
-		file.why = "without comments, for %s" % _features.reached.get(shader, _needed_by[path])
+		file.why = "without comments, for %s" % _features.reached.get(feature, _needed_by[path])
 	else:
-		file.why = "for %s" % _needed_by[path]
+		file.why = "for %s" % _features.reached.get(feature, _needed_by[path])
 	if not file.bytes.is_empty():
 		file.after = file.bytes.size()

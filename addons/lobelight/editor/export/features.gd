@@ -1,66 +1,106 @@
 @tool
 extends RefCounted
-## Which features with shaders of their own the project's files can reach.
+## Which features with files of their own the project's files can reach.
 ##
-## A feature that a script so much as names counts as reached.
+## A feature that a script so much as names counts as reached, and so do those in the metadata
+## [code]lobelight_features[/code] of a scene's root, an array of their names.
 
 const LobeEnvironment := preload("../../runtime/lobe_environment_3d.gd")
 const MaterialShader := preload("../../runtime/material_shader.gd")
+const OnDemand := preload("../../runtime/on_demand.gd")
 
-## Shaders below runtime/shaders that nothing but the feature draws with.
-const SHADERS: Dictionary[String, String] = {
-	"clear_coat.gdshaderinc": "a clear coat",
-	"diffuse.gdshaderinc": "diffuse light",
-	"pyramid_reduce.gdshader": "the filters Box and Binomial",
-	"pyramid_views.gdshader": "light of a sky or a captured scene",
+const DECLARATION := "metadata/lobelight_features"
+const COAT := "clear coats"
+const DIFFUSE := "diffuse light"
+const WARNINGS := "warnings, which the editor shows"
+
+## Files below runtime that nothing but the feature needs.
+const FILES: Dictionary[String, String] = {
+	"shaders/clear_coat.gdshaderinc": COAT,
+	"shaders/diffuse.gdshaderinc": DIFFUSE,
+	"shaders/pyramid_reduce.gdshader": OnDemand.FILTERS,
+	"shaders/pyramid_views.gdshader": OnDemand.SKIES,
+	"world_views.gd": OnDemand.SKIES,
+	"material_conversion.gd": OnDemand.CONVERSION,
+	"gpu_cube.gd": OnDemand.RENDERING_DEVICE,
+	"packed_cube.gd": OnDemand.COMPATIBILITY,
+	"environment_warnings.gd": WARNINGS,
 }
 # What scripts and animations name where they may ask for it.
 const _WORDS: Dictionary[String, String] = {
-	"clear_coat.gdshaderinc": "clearcoat\\w*",
-	"diffuse.gdshaderinc": "metallic|metallic_texture|orm_texture",
-	"pyramid_reduce.gdshader": "filter",
-	"pyramid_views.gdshader": "source|panorama|LobeEnvironment3D",
+	COAT: "clearcoat\\w*",
+	DIFFUSE: "metallic|metallic_texture|orm_texture",
+	OnDemand.FILTERS: "filter",
+	OnDemand.SKIES: "source|panorama|LobeEnvironment3D",
+	OnDemand.CONVERSION: "from_standard|to_standard|get_losses_from",
 }
+const _METHOD := "rendering/renderer/rendering_method"
+const _FALLBACK := "rendering/rendering_device/fallback_to_opengl3"
 
-## By the names of [constant SHADERS]: who needs it.
+## By feature: who needs it.
 var reached: Dictionary[String, String] = {}
 ## Of each [LobeEnvironment3D] in a scene, [file, properties].
 var environments: Array[Array] = []
+## Who may give one another size or panorama, in a sentence; empty if nobody does.
+var resizing := ""
 
 var _words: Dictionary[String, RegEx] = {}
+# Not what is given a vector: that is of another class.
+var _resizing := RegEx.create_from_string(
+	(
+		"\\b(panorama|LobeEnvironment3D)\\b|\\.size\\s*[-+*/]?=(?!=)(?!\\s*Vector)"
+		+ "|(?<!get\\()(?<!get\\(&)[\"':]size\\b"
+	)
+)
 
 
 func _init() -> void:
-	for shader in _WORDS:
-		_words[shader] = RegEx.create_from_string("\\b(%s)\\b" % _WORDS[shader])
+	for feature in _WORDS:
+		_words[feature] = RegEx.create_from_string("\\b(%s)\\b" % _WORDS[feature])
 
 
-## For what may do anything.
+## For what may set any property.
 func add_all(file: String) -> void:
-	for shader in SHADERS:
-		_add(shader, file)
+	for feature: String in [COAT, DIFFUSE, OnDemand.FILTERS, OnDemand.SKIES]:
+		_add(feature, file)
+	resizing = "%s may change environments" % file
+
+
+## What every renderer needs that the project's settings choose for some system.
+func look_at_renderers() -> void:
+	for property in ProjectSettings.get_property_list():
+		var setting: String = property["name"]
+		if setting.begins_with(_METHOD):
+			var is_compatibility: bool = ProjectSettings.get_setting(setting) == "gl_compatibility"
+			_add(OnDemand.COMPATIBILITY if is_compatibility else OnDemand.RENDERING_DEVICE, setting)
+	if ProjectSettings.get_setting(_FALLBACK, true):
+		_add(OnDemand.COMPATIBILITY, _FALLBACK)
 
 
 func look_at_material(file: String, material: LobeMaterial3D) -> void:
 	if material.clearcoat > 0.0:
-		_add("clear_coat.gdshaderinc", file)
+		_add(COAT, file)
 	if MaterialShader.is_dielectric(material):
-		_add("diffuse.gdshaderinc", file)
+		_add(DIFFUSE, file)
 
 
 ## A line of a script, or the path of an animation's track.
 func read_line(file: String, line: String) -> void:
-	for shader in SHADERS:
-		if _words[shader].search(line) != null:
-			_add(shader, file)
+	for feature in _words:
+		if _words[feature].search(line) != null:
+			_add(feature, file)
+	if _resizing.search(line) != null:
+		resizing = "%s may change environments" % file
 
 
 ## A node of a scene, by the properties that are not at their defaults.
 func look_at_node(file: String, properties: Dictionary, is_instance: bool) -> void:
 	if is_instance:
 		# What it is an instance of is seen elsewhere; here something of it is changed.
-		read_line(file, " ".join(PackedStringArray(properties.keys())))
+		read_line(file, ":" + " :".join(PackedStringArray(properties.keys())))
 		return
+	for feature: String in properties.get(DECLARATION, []):
+		_add(feature, file)
 	var script: Script = properties.get("script") as Script
 	while script != null and script != LobeEnvironment:
 		script = script.get_base_script()
@@ -72,12 +112,12 @@ func look_at_node(file: String, properties: Dictionary, is_instance: bool) -> vo
 	if source == LobeEnvironment3D.Source.AUTOMATIC and has_panorama:
 		source = LobeEnvironment3D.Source.PANORAMA
 	if source != LobeEnvironment3D.Source.PANORAMA:
-		_add("pyramid_views.gdshader", file)
+		_add(OnDemand.SKIES, file)
 	var filter: int = properties.get("filter", LobeEnvironment3D.Filter.DISC)
 	if filter == LobeEnvironment3D.Filter.BOX or filter == LobeEnvironment3D.Filter.BINOMIAL:
-		_add("pyramid_reduce.gdshader", file)
+		_add(OnDemand.FILTERS, file)
 
 
-func _add(shader: String, file: String) -> void:
-	if not reached.has(shader):
-		reached[shader] = file
+func _add(feature: String, file: String) -> void:
+	if not reached.has(feature):
+		reached[feature] = file

@@ -23,13 +23,20 @@ static func of_scene(scene: String) -> PackedStringArray:
 	var files: PackedStringArray = [scene]
 	var next := 0
 	while next < files.size():
-		for dependency in ResourceLoader.get_dependencies(files[next]):
-			# uid::type::path, or a path alone.
-			var path := dependency.get_slice("::", 2) if "::" in dependency else dependency
+		for path in get_dependencies(files[next]):
 			if path and path not in files:
 				files.append(path)
 		next += 1
 	return files
+
+
+## The paths that a file says it depends on.
+static func get_dependencies(file: String) -> PackedStringArray:
+	var paths: PackedStringArray = []
+	for dependency in ResourceLoader.get_dependencies(file):
+		# uid::type::path, or a path alone.
+		paths.append(dependency.get_slice("::", 2) if "::" in dependency else dependency)
+	return paths
 
 
 ## What a preset exports: the project, or where scenes or resources are chosen, these with all that

@@ -1,0 +1,71 @@
+@tool
+extends "world_light.gd"
+## The light of the world around a node: its sky, alone or with the scene before it, seen by six
+## cameras; or the panorama of its sky.
+
+const SixViews := preload("six_views.gd")
+const SkyStage := preload("sky_stage.gd")
+const Surroundings := preload("surroundings.gd")
+
+# The sky has no depth.
+const _SKY_NEAR := 0.05
+const _SKY_FAR := 10.0
+
+var _node: LobeEnvironment3D
+var _views := Views.NONE
+var _surroundings: Surroundings
+var _stage: SkyStage
+
+
+func _init(node: LobeEnvironment3D) -> void:
+	_node = node
+	_surroundings = Surroundings.new(node, false)
+
+
+func find_panorama() -> Texture2D:
+	return _surroundings.find_panorama()
+
+
+func find_panorama_energy() -> float:
+	return _surroundings.find_panorama_energy()
+
+
+func find_sky_rotation() -> Basis:
+	return _surroundings.find_sky_rotation()
+
+
+func look(views: Views) -> bool:
+	if views != _views:
+		_views = views
+		_surroundings = Surroundings.new(_node, views == Views.SCENE)
+		_stage = SkyStage.new(_node) if views == Views.SKY else null
+	var changed := false
+	if views != Views.NONE:
+		changed = _surroundings.update()
+	if _stage != null:
+		changed = _stage.update() or changed
+	return changed
+
+
+func make_views(samples: int, face_size: int) -> FaceViews:
+	var is_sky := _views == Views.SKY
+	var world := _node.get_world_3d()
+	var scenario := _stage.scenario if is_sky else world.scenario
+	var owner: RefCounted = _stage if is_sky else world
+	var views := SixViews.new(samples * face_size, scenario, owner, _surroundings.copy, not is_sky)
+	place(views)
+	return views
+
+
+func place(views: FaceViews) -> void:
+	var six := views as SixViews
+	if _views == Views.SCENE:
+		six.place(
+			_node.global_position, _node.capture_near, _node.capture_far, _node.capture_cull_mask
+		)
+	elif _views == Views.SKY:
+		# From where the camera is, since shaders may ask.
+		var camera := _surroundings.find_camera()
+		var origin := camera.global_position if camera != null else _node.global_position
+		var mask := camera.cull_mask if camera != null else 0xFFFFF
+		six.place(origin, _SKY_NEAR, _SKY_FAR, mask)
