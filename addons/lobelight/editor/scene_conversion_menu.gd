@@ -6,6 +6,9 @@ extends EditorContextMenuPlugin
 ## changed.
 
 const ConversionPlugin := preload("material_conversion_plugin.gd")
+const SceneUsage := preload("menu/scene_usage.gd")
+const SceneWarnings := preload("warnings/scene_warnings.gd")
+const Wording := preload("wording.gd")
 
 var _undo_redo: EditorUndoRedoManager
 
@@ -61,11 +64,26 @@ static func _find_materials(node: Node) -> Array[Array]:
 	return found
 
 
+## What is said of changes to a scene, and of the light that its materials lack then.
+static func describe(changes: Array[Array], root: Node) -> String:
+	if changes.is_empty():
+		return "There is no material of Godot's own to be converted."
+	var made: Dictionary[LobeMaterial3D, bool] = {}
+	for change in changes:
+		made[change[2]] = true
+	var sentences: PackedStringArray = ["Converted %s." % Wording.count(made.size(), "material")]
+	if SceneUsage.find_environments(root).is_empty():
+		sentences.append(SceneWarnings.without_environment())
+	return " ".join(sentences)
+
+
 ## Converts the materials of nodes and of those below them, by one action that can be undone.
 func convert_nodes(nodes: Array) -> void:
 	var roots: Array[Node] = []
 	roots.assign(nodes)
 	var changes := find_changes(roots)
+	var root := EditorInterface.get_edited_scene_root()
+	EditorInterface.get_editor_toaster().push_toast(describe(changes, root))
 	if changes.is_empty():
 		return
 	_undo_redo.create_action("Convert Materials to LobeMaterial3D")

@@ -5,6 +5,7 @@ extends GdUnitTestSuite
 const BakeQueue := preload("res://addons/lobelight/editor/bake/bake_queue.gd")
 const Kit := preload("res://tests/editor/editor_kit.gd")
 const Recipe := preload("res://addons/lobelight/editor/bake/bake_recipe.gd")
+const SceneMenu := preload("res://addons/lobelight/editor/scene_conversion_menu.gd")
 const SceneReport := preload("res://addons/lobelight/editor/menu/scene_report.gd")
 const SceneUsage := preload("res://addons/lobelight/editor/menu/scene_usage.gd")
 const SceneWarnings := preload("res://addons/lobelight/editor/warnings/scene_warnings.gd")
@@ -190,6 +191,21 @@ func test_a_mesh_without_tangents_is_told_so_in_the_theme_s_colour() -> void:
 	var color := EditorInterface.get_editor_theme().get_color(&"warning_color", &"Editor")
 	assert_that(labels[0].get_theme_color(&"font_color")).is_equal(color)
 	EditorInterface.inspect_object(null)
+
+
+func test_a_conversion_says_what_it_did_and_what_light_is_missing() -> void:
+	var root := _make_scene()
+	assert_str(SceneMenu.describe(SceneMenu.find_changes([root]), root)).contains("no material")
+	var shared := StandardMaterial3D.new()
+	for part in 2:
+		var sphere := MeshInstance3D.new()
+		sphere.material_override = shared
+		root.add_child(sphere)
+	var changes := SceneMenu.find_changes([root])
+	var text := SceneMenu.describe(changes, root)
+	assert_str(text).starts_with("Converted 1 material.").contains("no LobeEnvironment3D")
+	root.add_child(LobeEnvironment3D.new())
+	assert_str(SceneMenu.describe(changes, root)).is_equal("Converted 1 material.")
 
 
 func test_environments_are_found_in_the_tree_and_outside() -> void:
