@@ -2,6 +2,7 @@ extends GdUnitTestSuite
 ## Conversion between Godot's materials and LobeMaterial3D.
 
 const ConversionPlugin := preload("res://addons/lobelight/editor/material_conversion_plugin.gd")
+const MaterialConversion := preload("res://addons/lobelight/runtime/material_conversion.gd")
 const SceneMenu := preload("res://addons/lobelight/editor/scene_conversion_menu.gd")
 
 
@@ -140,11 +141,9 @@ func test_losses_are_named() -> void:
 		["rim_enabled", "uv1_triplanar", "shading_mode"]
 	)
 	# The names are those of properties.
-	for name: StringName in LobeMaterial3D.MaterialConversion._LOST:
+	for name: StringName in MaterialConversion._LOST:
 		assert_bool(name in source).append_failure_message(name).is_true()
-		assert_that(StandardMaterial3D.new().get(name)).is_equal(
-			LobeMaterial3D.MaterialConversion._LOST[name]
-		)
+		assert_that(StandardMaterial3D.new().get(name)).is_equal(MaterialConversion._LOST[name])
 
 
 func test_an_angle_becomes_a_flow_map() -> void:
