@@ -7,7 +7,6 @@ extends EditorContextMenuPlugin
 
 const ConversionPlugin := preload("material_conversion_plugin.gd")
 const SceneUsage := preload("menu/scene_usage.gd")
-const SceneWarnings := preload("warnings/scene_warnings.gd")
 const Wording := preload("wording.gd")
 
 var _undo_redo: EditorUndoRedoManager
@@ -71,10 +70,11 @@ static func describe(changes: Array[Array], root: Node) -> String:
 	var made: Dictionary[LobeMaterial3D, bool] = {}
 	for change in changes:
 		made[change[2]] = true
-	var sentences: PackedStringArray = ["Converted %s." % Wording.count(made.size(), "material")]
+	var sentence := "Converted %s." % Wording.count(made.size(), "material")
 	if SceneUsage.find_environments(root).is_empty():
-		sentences.append(SceneWarnings.without_environment())
-	return " ".join(sentences)
+		# The editor cuts notes off that are longer.
+		sentence += " Add a LobeEnvironment3D: nothing lights them yet."
+	return sentence
 
 
 ## Converts the materials of nodes and of those below them, by one action that can be undone.

@@ -169,8 +169,12 @@ func test_a_cancelled_import_keeps_the_table_from_before() -> void:
 
 func test_the_panel_takes_clicks_on_its_button_only() -> void:
 	var panel: ProgressPanel = auto_free(ProgressPanel.new())
-	EditorInterface.get_base_control().add_child(panel)
+	# Its window is made as large as it says before it is in the tree.
 	panel.size = panel.find_size()
+	EditorInterface.get_base_control().add_child(panel)
+	assert_vector(panel.find_size()).is_equal(panel.size)
+	var row := EditorInterface.get_base_control().get_theme_font_size(&"font_size", &"Label")
+	assert_float(panel.size.y).is_greater(5.0 * row)
 	panel.draw_now(0.5, "half")
 	var place := panel._find_button()
 	assert_bool(Rect2(Vector2.ZERO, panel.size).encloses(place)).is_true()

@@ -203,7 +203,7 @@ func test_a_conversion_says_what_it_did_and_what_light_is_missing() -> void:
 		root.add_child(sphere)
 	var changes := SceneMenu.find_changes([root])
 	var text := SceneMenu.describe(changes, root)
-	assert_str(text).starts_with("Converted 1 material.").contains("no LobeEnvironment3D")
+	assert_str(text).starts_with("Converted 1 material.").contains("Add a LobeEnvironment3D")
 	root.add_child(LobeEnvironment3D.new())
 	assert_str(SceneMenu.describe(changes, root)).is_equal("Converted 1 material.")
 

@@ -9,6 +9,8 @@ const _MARGIN := 12.0
 var title := ""
 
 var _is_held := false
+# Its own is the engine's before the window opens, whose font is of another size.
+var _look := EditorInterface.get_editor_theme()
 
 
 ## As large as the font wants it.
@@ -19,20 +21,19 @@ func find_size() -> Vector2:
 
 func draw_now(fraction: float, text: String) -> void:
 	var item := get_canvas_item()
-	var theme := EditorInterface.get_editor_theme()
 	var margin := _get_margin()
 	var row := _get_row()
 	var width := size.x - 2.0 * margin
 	RenderingServer.canvas_item_clear(item)
-	theme.get_stylebox(&"panel", &"PopupPanel").draw(item, Rect2(Vector2.ZERO, size))
+	_look.get_stylebox(&"panel", &"PopupPanel").draw(item, Rect2(Vector2.ZERO, size))
 	_draw_text(title, Rect2(margin, margin, width, row), HORIZONTAL_ALIGNMENT_LEFT)
 	var bar := Rect2(margin, margin + 1.2 * row, width, 0.8 * row)
-	theme.get_stylebox(&"background", &"ProgressBar").draw(item, bar)
+	_look.get_stylebox(&"background", &"ProgressBar").draw(item, bar)
 	bar.size.x *= clampf(fraction, 0.02, 1.0)
-	theme.get_stylebox(&"fill", &"ProgressBar").draw(item, bar)
+	_look.get_stylebox(&"fill", &"ProgressBar").draw(item, bar)
 	_draw_text(text, Rect2(margin, margin + 2.1 * row, width, row), HORIZONTAL_ALIGNMENT_LEFT)
 	var button := _find_button()
-	theme.get_stylebox(&"pressed" if _is_held else &"normal", &"Button").draw(item, button)
+	_look.get_stylebox(&"pressed" if _is_held else &"normal", &"Button").draw(item, button)
 	_draw_text("Cancel", button, HORIZONTAL_ALIGNMENT_CENTER)
 
 
@@ -54,18 +55,18 @@ func _find_button() -> Rect2:
 
 
 func _draw_text(text: String, place: Rect2, alignment: HorizontalAlignment) -> void:
-	var font := get_theme_font(&"font", &"Label")
-	var font_size := get_theme_font_size(&"font_size", &"Label")
+	var font := _look.get_font(&"font", &"Label")
+	var font_size := _look.get_font_size(&"font_size", &"Label")
 	var height := font.get_height(font_size)
 	var start := place.position
 	start.y += 0.5 * (place.size.y - height) + font.get_ascent(font_size)
-	var color := get_theme_color(&"font_color", &"Label")
+	var color := _look.get_color(&"font_color", &"Label")
 	font.draw_string(get_canvas_item(), start, text, alignment, place.size.x, font_size, color)
 
 
 func _get_row() -> float:
-	var font_size := get_theme_font_size(&"font_size", &"Label")
-	return 1.25 * get_theme_font(&"font", &"Label").get_height(font_size)
+	var font_size := _look.get_font_size(&"font_size", &"Label")
+	return 1.25 * _look.get_font(&"font", &"Label").get_height(font_size)
 
 
 func _get_margin() -> float:

@@ -11,7 +11,7 @@ static func of_scene(root: Node) -> PackedStringArray:
 	var warnings: PackedStringArray = []
 	var usage: SceneUsage = SceneUsage.of(root)
 	if usage.environments.is_empty() and not usage.materials.is_empty():
-		warnings.append(without_environment())
+		warnings.append(_without_environment())
 	for environment in usage.environments:
 		warnings.append_array(of_environment(environment, root))
 	for material in usage.materials:
@@ -25,7 +25,7 @@ static func of_scene(root: Node) -> PackedStringArray:
 static func of_material(material: LobeMaterial3D, root: Node) -> PackedStringArray:
 	var warnings := _of_properties(material)
 	if root != null and SceneUsage.find_environments(root).is_empty():
-		warnings.append(without_environment())
+		warnings.append(_without_environment())
 	return warnings
 
 
@@ -34,8 +34,7 @@ static func of_environment(environment: LobeEnvironment3D, root: Node) -> Packed
 	return EnvironmentWarnings.of(environment, root)
 
 
-## Of a scene that has materials, but no environment to light them.
-static func without_environment() -> String:
+static func _without_environment() -> String:
 	return (
 		"The scene has no LobeEnvironment3D, so LobeMaterial3Ds show a neutral map: add one, and it "
 		+ "takes the light of the scene's sky."
