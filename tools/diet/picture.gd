@@ -8,7 +8,8 @@ const FRAMES := 12
 
 func _ready() -> void:
 	var arguments := OS.get_cmdline_user_args()
-	if not arguments.is_empty():
+	# A scene alone is for ask.gd.
+	if arguments.size() > 1:
 		_draw.call_deferred(arguments[0], arguments.slice(1))
 
 
@@ -23,6 +24,9 @@ func _draw(folder: String, scenes: PackedStringArray) -> void:
 		var file := FileAccess.open(path + ".json", FileAccess.WRITE)
 		file.store_string(JSON.stringify({"materials": _materials(), "sizes": _sizes()}))
 		file.close()
+		# Compatibility reports a sky's textures as leaked if the game ends while it is shown.
+		get_tree().unload_current_scene()
+		await get_tree().process_frame
 	get_tree().quit()
 
 

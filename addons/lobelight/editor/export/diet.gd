@@ -6,6 +6,7 @@ const CodeFiles := preload("code_files.gd")
 const EnvironmentFit := preload("environment_fit.gd")
 const FileBytes := preload("file_bytes.gd")
 const LobeReduction := preload("lobe_reduction.gd")
+const PanoramaFit := preload("panorama_fit.gd")
 const Reach := preload("reach.gd")
 const SetCut := preload("set_cut.gd")
 const SetReach := preload("set_reach.gd")
@@ -37,19 +38,26 @@ class Share:
 var shares: Dictionary[String, Share] = {}
 var code: CodeFiles
 var fit: EnvironmentFit
+var panoramas := PanoramaFit.new()
 var lobes: LobeReduction
 var material_count := 0
 
 
 ## What the files that are exported need. With a [param target], in dB, materials get the fewest
-## lobes that reach it, which takes a while.
-static func of_files(files: PackedStringArray, target := 0.0) -> RefCounted:
+## lobes that reach it, which takes a while. Environments and their panoramas are resized unless
+## [param fits] is false.
+static func of_files(files: PackedStringArray, target := 0.0, fits := true) -> RefCounted:
 	var diet := new()
 	var reach := Reach.of_files(files, target)
 	diet.material_count = reach.material_count
 	diet.lobes = reach.lobes
 	diet.code = CodeFiles.of_files(files, reach.features)
 	diet.fit = EnvironmentFit.of(reach.features.environments, reach.sets, reach.own_tables)
+	if fits:
+		diet.panoramas = PanoramaFit.of(files, reach.features, diet.fit)
+	else:
+		diet.fit.size = 0
+		diet.fit.why = "the preset says so"
 	for name in DirAccess.get_files_at(Reach.TABLES):
 		if name.get_extension() == "res":
 			var path := Reach.TABLES + name
@@ -114,6 +122,7 @@ func describe() -> PackedStringArray:
 				"%s: %d bytes, %d: %s" % [path.get_file(), file.before, file.after, file.why]
 			)
 	lines.append(fit.describe())
+	lines.append_array(panoramas.describe())
 	var report := to_dictionary()
 	lines.append(
 		(
@@ -142,6 +151,9 @@ func to_dictionary() -> Dictionary:
 	for path in code.files:
 		var file := code.files[path]
 		files.append(_entry(path, file.before, file.after, file.why))
+	var pictures: Array[Dictionary] = []
+	for share: PanoramaFit.Share in panoramas.shares.values():
+		pictures.append(_entry(share.path, share.before, share.after, share.why))
 	return {
 		"materials": material_count,
 		"before": before,
@@ -149,6 +161,7 @@ func to_dictionary() -> Dictionary:
 		"run_time": code.get_size_after(),
 		"environment_size": fit.size,
 		"environment_size_why": fit.why,
+		"panoramas": pictures,
 		"lobes": lobes.to_dictionaries(),
 		"lobes_kept": lobes.kept,
 		"tables": tables,

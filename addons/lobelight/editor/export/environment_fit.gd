@@ -48,10 +48,20 @@ static func of(
 func get_size_for(environment: LobeEnvironment3D) -> int:
 	if size == 0 or environment.size != 0:
 		return 0
-	var most := Pyramid.MAX_AUTOMATIC_SIZE
-	if environment.panorama != null:
-		most = Pyramid.automatic_size(environment.panorama)
-	return size if size < most else 0
+	return size if size < _get_automatic_size(environment.panorama) else 0
+
+
+## The side of the cube map that is made of a panorama in an export, where the environment's size is
+## [param own].
+func get_exported_size(own: int, panorama: Texture2D) -> int:
+	if own > 0:
+		return own
+	var automatic := _get_automatic_size(panorama)
+	return mini(size, automatic) if size > 0 else automatic
+
+
+static func _get_automatic_size(panorama: Texture2D) -> int:
+	return Pyramid.automatic_size(panorama) if panorama != null else Pyramid.MAX_AUTOMATIC_SIZE
 
 
 ## Whether a scene has environments that may be resized.

@@ -5,9 +5,9 @@ extends EditorExportPlugin
 ## [br][br]
 ## Of the ready tables and of the run time it exports what the project can reach, prints what it
 ## did, and keeps a report in the project's data folder. The preset's option "lobelight/cut_tables"
-## turns that off. Environments of automatic size get the size that the sharpest lobe needs, unless
-## "lobelight/fit_environments" is off. With a "lobelight/target_psnr", materials get the fewest
-## lobes that reach it.
+## turns that off. Environments of automatic size get the size that the sharpest lobe needs, and
+## their panoramas as many texels as that shows, unless "lobelight/fit_environments" is off. With a
+## "lobelight/target_psnr", materials get the fewest lobes that reach it.
 
 const Diet := preload("diet.gd")
 const ExtensionList := preload("extension_list.gd")
@@ -57,15 +57,16 @@ func _export_begin(
 	_diet = null
 	if get_option(CUT_TABLES) != false:
 		var target: float = get_option(TARGET_PSNR)
-		_diet = Diet.of_files(ProjectFiles.of_preset(get_export_preset()), target)
-		if get_option(FIT_ENVIRONMENTS) == false:
-			_diet.fit.size = 0
-			_diet.fit.why = "the preset says so"
+		var files := ProjectFiles.of_preset(get_export_preset())
+		_diet = Diet.of_files(files, target, get_option(FIT_ENVIRONMENTS) != false)
 		for reduced: Diet.LobeReduction.ReducedTable in _diet.lobes.tables.values():
 			add_file(reduced.get_path(), reduced.get_bytes(), false)
 
 
 func _export_file(path: String, type: String, _features: PackedStringArray) -> void:
+	if _diet != null and _diet.panoramas.shares.has(path):
+		_export_panorama(_diet.panoramas.shares[path])
+		return
 	if _diet != null:
 		var edited := _diet.edit(path)
 		if not edited.is_empty():
@@ -89,6 +90,16 @@ func _export_file(path: String, type: String, _features: PackedStringArray) -> v
 		skip()
 	if _diet != null and _diet.code.files.has(path):
 		_export_code(path, _diet.code.files[path])
+
+
+# A panorama that is made smaller. Not by the engine's way to put a file in the place of another:
+# the loader of textures wants the type that a .import file names.
+func _export_panorama(share: Diet.PanoramaFit.Share) -> void:
+	if not share.bytes.is_empty():
+		var file := Diet.EDITED + share.path.md5_text() + ".ctex"
+		add_file(file, share.bytes, false)
+		add_file(share.path + ".import", share.make_import(file), false)
+		skip()
 
 
 # A file of the run time that is left out or replaced; the others are left to the engine.

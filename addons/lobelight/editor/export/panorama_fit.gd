@@ -1,0 +1,233 @@
+@tool
+extends RefCounted
+## Panoramas no finer than the cube maps that are made of them.
+##
+## A cube map of S texels a side has 4 S of them around, so that 4 S texels are all that it can show
+## of a panorama. Finer ones are halved, each texel the mean of four, while that many are left: at
+## least twice S, so that level 0 stays as sharp as it is (runtime/pyramid.gd, base_variance). Only
+## panoramas that are seen through the cube map alone: what else shows one may need all of it.
+
+const EnvironmentFit := preload("environment_fit.gd")
+const Features := preload("features.gd")
+const Pyramid := preload("../../runtime/pyramid.gd")
+const ProjectFiles := preload("project_files.gd")
+
+## Along the panorama, of each texel along a cube map's side.
+const TEXELS_AROUND := 4
+## Half floats end here.
+const MOST := 65504.0
+
+
+## What becomes of a panorama.
+class Share:
+	extends RefCounted
+	var path := ""
+	## Bytes of the imported texture, and what is exported in its place.
+	var before := 0
+	var after := 0
+	var extent_before := Vector2i.ZERO
+	var extent_after := Vector2i.ZERO
+	var why := ""
+	## A .ctex file; empty if the texture goes along as it is.
+	var bytes := PackedByteArray()
+
+	## The .import file of a panorama whose texture is another file.
+	func make_import(texture: String) -> PackedByteArray:
+		var config := ConfigFile.new()
+		config.load(path + ".import")
+		for section in config.get_sections():
+			if section != "remap":
+				config.erase_section(section)
+		for key in config.get_section_keys("remap"):
+			if key.begins_with("path"):
+				config.erase_section_key("remap", key)
+		config.set_value("remap", "path", texture)
+		config.set_value("remap", "type", "CompressedTexture2D")
+		config.set_value("remap", "metadata", {"vram_texture": false})
+		return config.encode_to_text().to_utf8_buffer()
+
+	func describe() -> String:
+		return (
+			"%s: %d x %d texels in %d bytes, %d x %d in %d: %s"
+			% [
+				path.get_file(),
+				extent_before.x,
+				extent_before.y,
+				before,
+				extent_after.x,
+				extent_after.y,
+				after,
+				why
+			]
+		)
+
+
+## By the panoramas' paths.
+var shares: Dictionary[String, Share] = {}
+
+
+## Of the environments' panoramas among a project's files. [param fit] knows the cubes' sizes.
+static func of(files: PackedStringArray, features: Features, fit: EnvironmentFit) -> RefCounted:
+	var panoramas := new()
+	# By path, the largest cube that is made of it.
+	var sizes: Dictionary[String, int] = {}
+	for entry in features.environments:
+		var panorama := (entry[1] as Dictionary).get("panorama") as Texture2D
+		if panorama != null and FileAccess.file_exists(panorama.resource_path + ".import"):
+			var size := fit.get_exported_size((entry[1] as Dictionary).get("size", 0), panorama)
+			var path := panorama.resource_path
+			sizes[path] = maxi(sizes.get(path, 0), size)
+	for path in sizes:
+		panoramas.shares[path] = _share_of(path, sizes[path], files, features)
+	return panoramas
+
+
+func describe() -> PackedStringArray:
+	var lines: PackedStringArray = []
+	for share: Share in shares.values():
+		lines.append(share.describe())
+	return lines
+
+
+static func _share_of(
+	path: String, size: int, files: PackedStringArray, features: Features
+) -> Share:
+	var panorama: Texture2D = load(path)
+	var share := Share.new()
+	share.path = path
+	share.before = _get_imported_bytes(path)
+	share.after = share.before
+	share.extent_before = Vector2i(panorama.get_size())
+	share.extent_after = share.extent_before
+	var wanted := TEXELS_AROUND * size
+	if share.extent_before.x < 2 * wanted:
+		share.why = "it is no finer than a cube map of %d texels a side shows" % size
+		return share
+	share.why = features.resizing
+	if share.why.is_empty():
+		share.why = _find_other_use(path, files, features)
+	if share.why:
+		return share
+	var image := panorama.get_image()
+	if image == null or image.get_format() not in Pyramid.LINEAR_FORMATS:
+		share.why = "it is not in linear floats"
+		return share
+	var fitted := shrink(image, wanted)
+	var bytes := _make_texture(fitted)
+	if bytes.size() >= share.before:
+		share.why = "compressed as it is, it is smaller"
+		return share
+	share.bytes = bytes
+	share.after = bytes.size()
+	share.extent_after = fitted.get_size()
+	share.why = "a cube map of %d texels a side shows no more" % size
+	return share
+
+
+## Halves an image in linear light while it keeps [param width] texels in a row. What is negative or
+## no number counts as 0. Shared exponents, because phones filter them and they take half of what
+## half floats do.
+static func shrink(image: Image, width: int) -> Image:
+	var fitted: Image = image.duplicate()
+	if fitted.is_compressed():
+		fitted.decompress()
+	fitted.clear_mipmaps()
+	fitted.convert(Image.FORMAT_RGBF)
+	var values := fitted.get_data().to_float32_array()
+	for i in values.size():
+		var value := values[i]
+		if not (value >= 0.0 and value <= MOST):
+			values[i] = MOST if is_finite(value) and value > MOST else 0.0
+	var extent := fitted.get_size()
+	fitted = Image.create_from_data(
+		extent.x, extent.y, false, Image.FORMAT_RGBF, values.to_byte_array()
+	)
+	while fitted.get_width() >= 2 * width and fitted.get_size() % 2 == Vector2i.ZERO:
+		fitted.shrink_x2()
+	fitted.convert(Image.FORMAT_RGBE9995)
+	return fitted
+
+
+# Who else uses the texture, in a sentence; empty if nobody does.
+static func _find_other_use(path: String, files: PackedStringArray, features: Features) -> String:
+	var uid := ResourceUID.id_to_text(ResourceLoader.get_resource_uid(path))
+	for file in files:
+		if file.begins_with("res://addons/lobelight/"):
+			continue
+		var ending := file.get_extension()
+		if ending in ProjectFiles.SCRIPTS or ending in ProjectFiles.SHADERS:
+			var text := FileAccess.get_file_as_string(file)
+			if path.get_file().get_basename() in text or uid in text:
+				return "%s names it" % file
+		elif path in ProjectFiles.get_dependencies(file):
+			if ending not in ["tscn", "scn"] or _shows_elsewhere(path, file, features):
+				return "%s shows it elsewhere, too" % file
+	return ""
+
+
+# Whether a scene has the texture anywhere but as the panorama of environments.
+static func _shows_elsewhere(path: String, file: String, features: Features) -> bool:
+	var texture: Texture2D = load(path)
+	var uses := 0
+	for entry in features.environments:
+		if entry[0] == file and (entry[1] as Dictionary).get("panorama") == texture:
+			uses += 1
+	var state := (load(file) as PackedScene).get_state()
+	var seen: Dictionary[Object, bool] = {}
+	for node in state.get_node_count():
+		for property in state.get_node_property_count(node):
+			var value: Variant = state.get_node_property_value(node, property)
+			if value is Object and value == texture:
+				uses -= 1
+			elif _holds(value, texture, seen):
+				return true
+	return uses != 0
+
+
+# Resources of other files have dependencies of their own.
+static func _holds(value: Variant, texture: Texture2D, seen: Dictionary[Object, bool]) -> bool:
+	if value is Array:
+		return (value as Array).any(func(part: Variant) -> bool: return _holds(part, texture, seen))
+	if value is Dictionary:
+		var parts: Array = (value as Dictionary).keys() + (value as Dictionary).values()
+		return _holds(parts, texture, seen)
+	if value is Object and value == texture:
+		return true
+	var resource := value as Resource if value is Object else null
+	if resource == null or seen.has(resource) or FileAccess.file_exists(resource.resource_path):
+		return false
+	seen[resource] = true
+	for property in resource.get_property_list():
+		if property["usage"] & PROPERTY_USAGE_STORAGE:
+			if _holds(resource.get(property["name"]), texture, seen):
+				return true
+	return false
+
+
+# Of the variants for several systems, the largest.
+static func _get_imported_bytes(path: String) -> int:
+	var config := ConfigFile.new()
+	if config.load(path + ".import") != OK:
+		return 0
+	var most := 0
+	for key in config.get_section_keys("remap"):
+		if key.begins_with("path"):
+			var file: String = config.get_value("remap", key)
+			most = maxi(most, FileAccess.get_file_as_bytes(file).size())
+	return most
+
+
+# The file that the engine's importer writes of an image that it does not compress (Godot 4.6,
+# editor/import/resource_importer_texture.cpp, _save_ctex): an ImageTexture would be stored under
+# names that differ from export to export.
+static func _make_texture(image: Image) -> PackedByteArray:
+	var header := StreamPeerBuffer.new()
+	header.put_data("GST2".to_ascii_buffer())
+	# The version, flags, no limit of mipmaps, reserved numbers, and that texels follow as they are.
+	for number: int in [1, image.get_width(), image.get_height(), 0, -1, 0, 0, 0, 0]:
+		header.put_32(number)
+	header.put_u16(image.get_width())
+	header.put_u16(image.get_height())
+	header.put_u32(0)
+	header.put_u32(image.get_format())
+	return header.data_array + image.get_data()
