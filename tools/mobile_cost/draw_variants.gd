@@ -3,7 +3,8 @@ extends SceneTree
 ## it compiles; see engine.py.
 ##
 ## Arguments: [code]-- FOLDER NAME,NAME…[/code]. Says on stderr that a material is being drawn, and
-## goes on once FOLDER has a file of the material's name.
+## goes on once FOLDER has a file of the material's name. The environment's LOBELIGHT_VARIANTS names
+## another file of variants.
 
 const VARIANTS_PATH := "res://tools/mobile_cost/variants.json"
 # Unlike all variants: drivers compile what they know no second time.
@@ -20,7 +21,9 @@ func _initialize() -> void:
 func _run() -> void:
 	var arguments := OS.get_cmdline_user_args()
 	var folder := arguments[0]
-	var variants: Dictionary = JSON.parse_string(FileAccess.get_file_as_string(VARIANTS_PATH))
+	var path := OS.get_environment("LOBELIGHT_VARIANTS")
+	var text := FileAccess.get_file_as_string(path if path else VARIANTS_PATH)
+	var variants: Dictionary = JSON.parse_string(text)
 	_build_scene()
 	await _draw("warm_up", _make_shader(WARM_UP), folder)
 	for name in arguments[1].split(","):
