@@ -21,6 +21,10 @@ through; numbers that scripts assign to roughness, anisotropy and the clear coat
 them is not known, and then all widths stay, unless the root of a scene says what its scripts reach, by the metadata
 "lobelight_reach": {"roughness": [0.2, 0.5], "anisotropy": [0.0, 0.9]}. Only materials whose widths no script changes can
 get fewer lobes; the metadata "lobelight_fixed": true of a material says so of it.
+
+Scripts and shaders of features that nothing reaches stay out as well; what a script so much as names is reached, and so is
+what a root's metadata "lobelight_features" lists. Environments of automatic size and panoramas that they alone show get
+the texels that the sharpest lobe needs; "Lobelight > Fit Environments" turns that off.
 USAGE
 }
 
