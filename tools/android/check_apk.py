@@ -18,6 +18,8 @@ LOAD_SEGMENT = 1
 # Godot 4.6: Android 7 at least, and what the Play store asks for in 2026.
 LEAST_SDK, TARGET_SDK = 24, 36
 ABI = "arm64-v8a"
+# Android's screenOrientation "fullUser": all four, as the user allows.
+FULL_USER = 13
 
 
 def output_of(*command):
@@ -33,7 +35,7 @@ def check_signature(options):
 
 
 def check_manifest(options):
-    """Name, SDK levels, OpenGL ES 3, no permission, and an entry for the launcher."""
+    """Name, SDK levels, OpenGL ES 3, no permission, an entry for the launcher, and a picture that turns with the phone."""
     aapt2 = options.sdk / "build-tools/debian/aapt2"
     status, text = output_of(aapt2, "dump", "badging", options.apk)
     wanted = {"package": options.package, "sdkVersion": f"{LEAST_SDK}", "targetSdkVersion": f"{TARGET_SDK}"}
@@ -45,9 +47,12 @@ def check_manifest(options):
     _status, tree = output_of(aapt2, "dump", "xmltree", options.apk, "--file", "AndroidManifest.xml")
     alias = tree.partition("E: activity-alias")[2].partition("E: activity ")[0]
     starts = all(word in alias for word in ("intent.action.MAIN", "intent.category.LAUNCHER", "com.godot.game.GodotApp"))
+    orientation = re.search(r"screenOrientation\(0x0101001e\)=(\d+)", tree)
+    turns = orientation is not None and int(orientation[1]) == FULL_USER
     what = ", ".join(f"{key} {value}" for key, value in found.items())
     what += f", launcher {'yes' if starts else 'no'}, permissions {', '.join(asked) or 'none'}"
-    return status == 0 and found == wanted and starts and not asked, what
+    what += f", {'turns' if turns else 'does not turn'} with the phone"
+    return status == 0 and found == wanted and starts and turns and not asked, what
 
 
 def check_abi(options, archive):
