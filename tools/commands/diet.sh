@@ -64,6 +64,7 @@ if $acceptance; then
   [[ -z $subject ]] || die "diet: --acceptance has its own scenes, '$subject' is one too many"
   need_engine
   need_python accuracy
+  need_library
   need_display
   if [[ " ${options[*]} " == *" --instructions "* ]]; then
     need_mobile_compilers adreno

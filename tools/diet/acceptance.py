@@ -42,6 +42,8 @@ WHOLE = "whole"
 # The preset that exports the isotropic scene alone, by what it depends on.
 CHOSEN = "chosen"
 UNUSED = "tests/data/unused.exr"
+# Presets that ask for a PSNR: the scene, and decibels.
+TARGETS = {"isotropic_target": ("isotropic", 30.0), "anisotropic_target": ("anisotropic", 24.0)}
 PANORAMA = "demo/environments/sunset.exr"
 START = '[gd_scene format=3]\n\n[node name="Start" type="Node"]\n'
 LEAST_PSNR = 45.0
@@ -103,6 +105,7 @@ script_export_mode=2
 
 binary_format/architecture="x86_64"
 lobelight/cut_tables={cut}
+lobelight/target_psnr={target}
 """
 
 
@@ -135,12 +138,11 @@ def run_engine(*arguments, drawing=False, complaining=False):
 
 
 def make_project(project):
-    """A project with the addon, without its native library, the scenes, and two presets for each of them."""
+    """A project with the addon, the scenes, and a preset for each of them and each target."""
     shutil.rmtree(project, ignore_errors=True)
     scenes = project / "tests/diet/scenes"
     scenes.mkdir(parents=True)
-    left_out = shutil.ignore_patterns("bin", "*.gdextension*")
-    shutil.copytree(ROOT / ADDON, project / ADDON, ignore=left_out)
+    shutil.copytree(ROOT / ADDON, project / ADDON)
     for file in sorted((ROOT / "tests/diet/scenes").iterdir()):
         if file.name.split(".")[0] in SCENES:
             shutil.copy(file, scenes)
@@ -154,12 +156,17 @@ def make_project(project):
     (project / "project.godot").write_text(PROJECT.format(side=SIDE), encoding="utf-8")
     # A panorama that no scene has.
     shutil.copy(ROOT / "tests/data/forest.exr", project / UNUSED)
-    presets = [PRESET.format(number=0, name=WHOLE, filter=ALL_FILES, exclude="", cut="false")]
-    for name in SCENES:
-        others = ",".join(f"tests/diet/scenes/{other}.*" for other in SCENES if other != name)
-        presets.append(PRESET.format(number=len(presets), name=name, filter=ALL_FILES, exclude=others, cut="true"))
-    values = {"number": len(presets), "name": CHOSEN, "filter": CHOSEN_FILES.format(scene="isotropic"), "exclude": ""}
-    presets.append(PRESET.format(**values, cut="true"))
+    presets = []
+
+    def add(name, files, exclude, cut="true", target=0.0):
+        values = {"name": name, "filter": files, "exclude": exclude, "cut": cut, "target": target}
+        presets.append(PRESET.format(number=len(presets), **values))
+
+    add(WHOLE, ALL_FILES, "", cut="false")
+    for name, (scene, target) in ({scene: (scene, 0.0) for scene in SCENES} | TARGETS).items():
+        others = ",".join(f"tests/diet/scenes/{other}.*" for other in SCENES if other != scene)
+        add(name, ALL_FILES, others, target=target)
+    add(CHOSEN, CHOSEN_FILES.format(scene="isotropic"), "")
     (project / "export_presets.cfg").write_text("\n".join(presets), encoding="utf-8")
     run_engine("--headless", "--path", project, "--import")
 
@@ -298,6 +305,21 @@ def check_asking(checks, pack):
         checks.expect(f"asked for what was left out: {line}", line in text)
 
 
+def check_targets(checks, rows, targets):
+    """Fewer lobes are drawn, they hold what was asked for, and the pictures are as near as that allows."""
+    for row in targets:
+        name, target = f"{row['scene']} with {row['target']:g} dB", row["target"]
+        (said,) = row["report"]["lobes"]
+        full = next(other for other in rows if other["scene"] == row["scene"])
+        fetches = [material["environment_fetches"] for material in row["materials"]]
+        checks.expect(f"{name}: {said['lobes']} lobes instead of {said['lobes_before']}", said["lobes"] < said["lobes_before"])
+        checks.expect(f"{name}: as many are drawn", fetches == [said["lobes"]])
+        checks.expect(f"{name}: {said['psnr']:.1f} dB are reached", said["psnr"] >= target)
+        checks.expect(f"{name}: {row['after']} bytes, {full['after']} with all lobes", row["after"] < full["after"])
+        for renderer, decibels in row["psnr"].items():
+            checks.expect(f"{name}: {renderer}, {decibels} dB from all lobes", decibels >= target)
+
+
 def check(checks, rows, pictures):
     by_scene = {row["scene"]: row for row in rows}
     for row in rows:
@@ -328,7 +350,7 @@ def check(checks, rows, pictures):
 
 
 def measure(work, progress):
-    """The rows, and of each scene its picture."""
+    """The rows of the scenes, those of TARGETS, and of each scene its pictures."""
     project = work / "project"
     progress("importing")
     make_project(project)
@@ -341,7 +363,13 @@ def measure(work, progress):
         reason = json.loads((project / ".godot/lobelight_export.json").read_text(encoding="utf-8"))
         rows.append(row_of(scene, whole, cut, reason))
         pictures[scene] = cut[1][scene][2]
-    return rows, pictures
+    targets = []
+    for preset, (scene, target) in TARGETS.items():
+        progress(f"{scene} with {target:g} dB")
+        cut = export(project, preset, [scene], work / preset)
+        reason = json.loads((project / ".godot/lobelight_export.json").read_text(encoding="utf-8"))
+        targets.append(row_of(scene, whole, cut, reason) | {"target": target})
+    return rows, targets, pictures
 
 
 def write(path, text):
@@ -357,28 +385,32 @@ def main():
     parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--instructions", action="store_true")
     options = parser.parse_args()
-    steps = len(SCENES) + 2
+    steps = len(SCENES) + len(TARGETS) + 2
     said = iter(range(1, steps + 1))
     checks = Checks()
     try:
         work = options.work.resolve()
-        rows, pictures = measure(work, lambda text: print(f"[{next(said)}/{steps}] {text}", file=sys.stderr, flush=True))
+        rows, targets, pictures = measure(
+            work, lambda text: print(f"[{next(said)}/{steps}] {text}", file=sys.stderr, flush=True)
+        )
         check_chosen(checks, work / "project", work / CHOSEN, rows)
         check_panorama(checks, work / WHOLE / "game.pck", work / "panorama/game.pck", rows)
         check_asking(checks, work / "isotropic/game.pck")
         if options.instructions:
             print("instructions", file=sys.stderr, flush=True)
-            instructions.add(rows, work / "instructions")
+            instructions.add(rows + targets, work / "instructions")
     except (AcceptanceError, instructions.EngineError, instructions.ListingError, OSError) as error:
         print(f"diet: {error}", file=sys.stderr)
         return 1
     check(checks, rows, pictures)
+    check_targets(checks, rows, targets)
+    results = json.dumps({"scenes": rows, "targets": targets}, indent=1) + "\n"
     if options.json:
-        write(options.json, json.dumps(rows, indent=1) + "\n")
+        write(options.json, results)
     if options.out:
         options.out.mkdir(parents=True, exist_ok=True)
-        write(options.out / "results.json", json.dumps(rows, indent=1) + "\n")
-        write(options.out / "README.md", acceptance_page.page(rows, LEAST_PSNR))
+        write(options.out / "results.json", results)
+        write(options.out / "README.md", acceptance_page.page(rows, targets, LEAST_PSNR))
     print(f"diet: {checks.passed} passed, {checks.failed} failed")
     return 1 if checks.failed else 0
 

@@ -10,6 +10,7 @@ const PanoramaFit := preload("panorama_fit.gd")
 const Reach := preload("reach.gd")
 const SetCut := preload("set_cut.gd")
 const SetReach := preload("set_reach.gd")
+const Wording := preload("../wording.gd")
 
 ## Where exports have the files that stand in for others.
 const EDITED := LobeReduction.ReducedTable.FOLDER
@@ -124,10 +125,11 @@ func describe() -> PackedStringArray:
 	lines.append(fit.describe())
 	lines.append_array(panoramas.describe())
 	var report := to_dictionary()
+	var materials := Wording.count(material_count, "material")
 	lines.append(
 		(
-			"Lobelight, %d materials: %d bytes before, %d after, %d of them the run time"
-			% [material_count, report["before"], report["after"], report["run_time"]]
+			"Lobelight, %s: %d bytes before, %d after, %d of them the run time"
+			% [materials, report["before"], report["after"], report["run_time"]]
 		)
 	)
 	return lines
