@@ -110,6 +110,40 @@ func test_a_material_can_say_that_scripts_leave_it_alone() -> void:
 	assert_bool(lobes.reduce("res://imported.glb", material)).is_false()
 
 
+# Of two materials with the same widths in a scene, the one that scripts may change keeps its set.
+func test_only_the_material_that_says_so_gets_the_reduced_set() -> void:
+	var lobes := LobeReduction.new()
+	lobes.target = 10.0
+	lobes.why_none = "scripts change widths"
+	var box := BoxMesh.new()
+	box.material = _material(0.35, 0.0)
+	assert_bool(lobes.reduce(SCENES + "isotropic.tscn", box.material)).is_false()
+	var fixed := _material(0.35, 0.0)
+	fixed.set_meta(LobeReduction.FIXED, true)
+	assert_bool(lobes.reduce(SCENES + "isotropic.tscn", fixed)).is_true()
+	assert_bool(lobes.edit(box)).is_false()
+	assert_object((box.material as LobeMaterial3D).table_set).is_null()
+	assert_bool(lobes.edit(fixed)).is_true()
+	assert_object(fixed.table_set).is_not_null()
+
+
+# Narrow widths that sets tell apart, by a third of a per cent, have a table each.
+func test_neighbouring_widths_do_not_share_a_table() -> void:
+	var lobes := LobeReduction.new()
+	lobes.target = 5.0
+	var paths: Array[String] = []
+	for roughness: float in [0.072, 0.0722]:
+		var material := _material(roughness, 0.0)
+		assert_bool(lobes.reduce(SCENES + "isotropic.tscn", material)).is_true()
+		assert_bool(lobes.edit(material)).is_true()
+		paths.append(material.table_set.resource_path)
+		var choice := TableChoice.new()
+		choice.choose(material)
+		assert_float(choice.table.directional_albedo(Vector3(0.0, 0.0, 1.0))).is_greater(0.9)
+	assert_int(lobes.tables.size()).is_equal(2)
+	assert_str(paths[0]).is_not_equal(paths[1])
+
+
 # The BRDF itself is the judge: fewer lobes are further from it than more, and near it still.
 func test_the_fewest_lobes_are_fitted_and_the_set_goes() -> void:
 	var path := SCENES + "isotropic.tscn"

@@ -77,7 +77,7 @@ func reduce(file: String, material: LobeMaterial3D) -> bool:
 	if home.is_empty():
 		home = file
 	var tables_of := _get_set(material)
-	var problem := "" if material.get_meta(FIXED, false) else why_none
+	var problem := "" if _is_fixed(material) else why_none
 	if problem.is_empty() and tables_of == null:
 		problem = "a table or a texture of its own, a clear coat or a script says what is drawn"
 	if problem.is_empty() and not _can_edit(home):
@@ -149,9 +149,14 @@ func _edit(value: Variant, seen: Dictionary[int, bool]) -> bool:
 	return is_changed
 
 
+# Whether nothing changes the widths while the game runs.
+func _is_fixed(material: LobeMaterial3D) -> bool:
+	return why_none.is_empty() or material.get_meta(FIXED, false)
+
+
 func _give(material: LobeMaterial3D) -> bool:
 	var tables_of := _get_set(material)
-	if tables_of == null:
+	if tables_of == null or not _is_fixed(material):
 		return false
 	var key := _key(tables_of, get_table(tables_of, material))
 	if not tables.has(key):
@@ -191,8 +196,9 @@ static func _key(tables_of: LobeTableSet, table: LobeTable) -> String:
 		"%s, alpha %s × %s, %d lobes"
 		% [
 			tables_of.brdf,
-			String.num(table.alpha.x, 4),
-			String.num(table.alpha.y, 4),
+			# Finer than sets round widths.
+			String.num(table.alpha.x, 8),
+			String.num(table.alpha.y, 8),
 			tables_of.lobe_count,
 		]
 	)

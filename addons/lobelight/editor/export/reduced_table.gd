@@ -3,6 +3,7 @@ extends RefCounted
 ## A table of fewer lobes for one pair of widths, in a set of its own.
 
 const FileBytes := preload("file_bytes.gd")
+const SetCut := preload("set_cut.gd")
 
 ## Where exports have it, beside the scenes that use it.
 const FOLDER := "res://.godot/exported/lobelight/"
@@ -36,9 +37,9 @@ func add_user(file: String) -> void:
 
 
 func get_path() -> String:
-	var widths := String.num(table.alpha.x, 6)
+	var widths := String.num(table.alpha.x, 8)
 	if not table.is_isotropic():
-		widths += "_" + String.num(table.alpha.y, 6)
+		widths += "_" + String.num(table.alpha.y, 8)
 	return FOLDER + "%s_%s_%d.res" % [table.brdf, widths, table.lobe_count]
 
 
@@ -68,30 +69,23 @@ func to_dictionary() -> Dictionary:
 # double. What is drawn is next to the first by less than sets round.
 static func _make_set(fitted: LobeTable) -> LobeTableSet:
 	var isotropic := fitted.is_isotropic()
-	var made := LobeTableSet.new()
-	made.brdf = fitted.brdf
-	made.lobe_count = fitted.lobe_count
-	made.seed = fitted.seed
 	# Sets have anisotropic tables; here they are black, and as small as can be.
-	made.views = Vector2i(fitted.views.x, 2) if isotropic else fitted.views
+	var views := Vector2i(fitted.views.x, 2) if isotropic else fitted.views
 	var alpha := fitted.alpha
-	made.widths = PackedFloat64Array([alpha.x, 2.0 * alpha.x] if isotropic else [alpha.y, alpha.x])
-	var row := 8 * made.views.x * made.lobe_count
+	var row := 8 * views.x * fitted.lobe_count
 	var black_pair := PackedByteArray()
-	black_pair.resize(row * made.views.y)
+	black_pair.resize(row * views.y)
 	var black := PackedByteArray()
 	black.resize(row)
 	var own := fitted.image.get_data()
-	var bytes := PackedByteArray()
 	# The pairs (0, 0), (1, 0) and (1, 1), then the isotropic tables.
-	for part in [black_pair, black_pair if isotropic else own, black_pair]:
-		bytes.append_array(part)
-	bytes.append_array(own if isotropic else black)
-	bytes.append_array(black)
-	@warning_ignore("integer_division")
-	var height := bytes.size() / (8 * made.views.x)
-	made.image = Image.create_from_data(made.views.x, height, false, Image.FORMAT_RGBAH, bytes)
-	# Otherwise random: equal exports are to have equal bytes.
-	made.resource_scene_unique_id = "set"
-	made.image.resource_scene_unique_id = "lobes"
-	return made
+	var bytes := black_pair + (black_pair if isotropic else own) + black_pair
+	bytes += (own if isotropic else black) + black
+	return SetCut.make_set(
+		fitted.brdf,
+		fitted.seed,
+		fitted.lobe_count,
+		views,
+		[alpha.x, 2.0 * alpha.x] if isotropic else [alpha.y, alpha.x],
+		bytes
+	)

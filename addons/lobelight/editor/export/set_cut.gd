@@ -85,16 +85,33 @@ func _make(tables: LobeTableSet, ends: Vector2i, needed: Dictionary[int, bool]) 
 		if not needed.has(number):
 			data.fill(0)
 		bytes.append_array(data)
-	var cut := LobeTableSet.new()
-	cut.brdf = tables.brdf
-	cut.lobe_count = tables.lobe_count
-	cut.views = tables.views
-	cut.seed = tables.seed
-	cut.widths = tables.widths.slice(ends.x, ends.y + 1)
+	var widths := Array(tables.widths.slice(ends.x, ends.y + 1))
+	return make_set(tables.brdf, tables.seed, tables.lobe_count, tables.views, widths, bytes)
+
+
+## A set of tables from their texels, one below the other.
+static func make_set(
+	brdf: String,
+	seed_of_fit: int,
+	lobes: int,
+	views: Vector2i,
+	widths: Array,
+	texels: PackedByteArray
+) -> LobeTableSet:
 	@warning_ignore("integer_division")
-	var height := bytes.size() / (8 * tables.views.x)
-	cut.image = Image.create_from_data(tables.views.x, height, false, Image.FORMAT_RGBAH, bytes)
-	# Otherwise random: equal exports are to have equal bytes.
-	cut.resource_scene_unique_id = "set"
-	cut.image.resource_scene_unique_id = "lobes"
-	return cut
+	var height := texels.size() / (8 * views.x)
+	return (
+		LobeTableSet
+		. from_baked(
+			{
+				"brdf": brdf,
+				"seed": seed_of_fit,
+				"lobes": lobes,
+				"views": views,
+				"widths": widths,
+				"width": views.x,
+				"height": height,
+				"data": texels,
+			}
+		)
+	)
