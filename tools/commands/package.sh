@@ -9,7 +9,7 @@ usage: ./dev package [--all | --no-library] [--out X.zip] [--json FILE]
 --out X.zip    where the package goes (default: build/lobelight.zip)
 --no-library   without the native library: materials, environments and the ready tables work, baking does not
 --all          with the libraries for Windows, macOS and Linux, each on x86-64 and arm64; those for other systems than
-               this one are built with Zig, which fetches 94 MB and takes half an hour of a processor the first time
+               this one are built with Zig, which is fetched, and take long, the first time
 --json FILE    the files, their sizes and the package's SHA-256
 
 The package holds addons/lobelight as a project needs it: run time, editor scripts, ready tables, icons and the library
