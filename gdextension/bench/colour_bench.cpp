@@ -22,6 +22,7 @@
 #include <memory>
 #include <string>
 
+#include "base/pi.h"
 #include "fit/channel_weights.h"
 #include "fit/table_fitter.h"
 #include "image/panorama.h"
@@ -29,8 +30,6 @@
 namespace {
 
 using namespace lobelight;
-
-constexpr double kPi = 3.14159265358979323846;
 
 // A lobe of a coloured material: a model times Schlick's Fresnel factor, from `normal` to 1.
 struct Layer {

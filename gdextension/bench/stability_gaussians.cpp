@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
 #include "sg/frame.h"
 #include "sg/spherical_gaussian.h"
 #include "stability.h"
@@ -12,8 +13,6 @@
 namespace lobelight::stability {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // 1e-8 … 1e10, and where the library goes from one formula to another (0.25 and 20).
 std::vector<double> sharpnesses(bool quick) {

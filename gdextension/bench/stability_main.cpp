@@ -8,6 +8,7 @@
 #include <exception>
 #include <string>
 
+#include "base/pi.h"
 #include "stability.h"
 
 namespace lobelight::stability {
@@ -94,7 +95,7 @@ Record& Record::set(std::string_view name, const Slice& slice) {
 }
 
 glm::dvec3 view_at(double elevation, double azimuth) {
-  constexpr double kDegree = 3.14159265358979323846 / 180.0;
+  constexpr double kDegree = kPi / 180.0;
   const double sine = std::sin(elevation * kDegree);
   // Exactly in the planes of symmetry where the azimuth says so.
   const double x = azimuth == 90.0 ? 0.0 : std::cos(azimuth * kDegree);

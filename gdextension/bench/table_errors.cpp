@@ -2,13 +2,14 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "fit/view_error.h"
 
 namespace lobelight {
 
 namespace {
 
-constexpr double kHalfPi = 1.57079632679489661923;
+constexpr double kHalfPi = 0.5 * kPi;
 
 // Half-way in elevation and azimuth between view (t, p) and the next of each, whatever the spacing.
 glm::dvec3 view_between(const LobeTable& table, int t, int p) {

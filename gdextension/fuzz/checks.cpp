@@ -7,13 +7,14 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/pi.h"
 #include "measured_files.h"
 
 namespace lobelight::fuzz {
 
 namespace {
 
-constexpr double kHalfPi = 1.57079632679489662;
+constexpr double kHalfPi = 0.5 * kPi;
 
 // Messages are shown in a line of the editor.
 constexpr std::size_t kLongestMessage = 1000;
@@ -77,7 +78,7 @@ void accept(const MeasuredData& data) {
   constexpr std::array<double, 5> kElevations{0.0, 0.3, 0.9, 1.4, kHalfPi - 1e-6};
   for (const double theta_i : kElevations) {
     for (const double theta_o : kElevations) {
-      for (const double azimuth : {0.0, 0.7, 3.1415926535, -2.0}) {
+      for (const double azimuth : {0.0, 0.7, kPi, -2.0}) {
         const glm::dvec3 value = data.reflected(testing::from_angles(theta_i, azimuth),
                                                 testing::from_angles(theta_o, 0.4));
         for (int channel = 0; channel < 3; ++channel) {

@@ -1,5 +1,6 @@
 // RGL's .bsdf tensor files.
 
+#include "base/pi.h"
 #include "brdf/binary_file.h"
 #include "brdf/rgl.h"
 #include "checks.h"
@@ -38,9 +39,10 @@ Bytes file_with(std::vector<float> azimuths) {
 }  // namespace
 
 std::vector<Bytes> seeds() {
-  constexpr float kPi = 3.14159265F;
-  return {file_with({0.0F}), file_with({-kPi, -0.5F * kPi, 0.0F, 0.5F * kPi, kPi}),
-          file_with({-kPi, -0.75F * kPi, -0.5F * kPi})};
+  constexpr float kHalfTurn = static_cast<float>(kPi);
+  return {file_with({0.0F}),
+          file_with({-kHalfTurn, -0.5F * kHalfTurn, 0.0F, 0.5F * kHalfTurn, kHalfTurn}),
+          file_with({-kHalfTurn, -0.75F * kHalfTurn, -0.5F * kHalfTurn})};
 }
 
 }  // namespace lobelight::fuzz

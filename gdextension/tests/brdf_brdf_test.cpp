@@ -6,13 +6,12 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/pi.h"
 #include "brdf_oracle.h"
 #include "statistics.h"
 
 namespace lobelight {
 namespace {
-
-using testing::kPi;
 
 constexpr glm::dvec2 kAlphas[] = {{0.3, 0.3}, {0.15, 0.4}, {0.01, 0.2}, {1.0, 0.05}};
 

@@ -2,14 +2,13 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "brdf/ggx.h"
 #include "fit/slice.h"
 #include "statistics.h"
 
 namespace lobelight {
 namespace {
-
-using testing::kPi;
 
 constexpr glm::dvec2 kAlphas[] = {{0.1, 0.1}, {0.2, 0.7}, {1.0, 0.3}};
 

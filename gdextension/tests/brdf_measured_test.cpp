@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/pi.h"
 #include "brdf/binary_file.h"
 #include "brdf/ggx.h"
 #include "brdf/measured.h"
@@ -18,7 +19,6 @@ namespace lobelight {
 namespace {
 
 using testing::from_angles;
-using testing::kPi;
 using testing::TemporaryFile;
 
 // Measurements without a file and without errors.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "base/pi.h"
 #include "brdf/binary_file.h"
 #include "brdf/ggx.h"
 #include "brdf/rgl.h"
@@ -18,7 +19,6 @@ namespace lobelight {
 namespace {
 
 using testing::from_angles;
-using testing::kPi;
 using testing::TemporaryFile;
 using testing::TensorWriter;
 

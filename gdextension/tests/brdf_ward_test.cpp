@@ -2,14 +2,13 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "brdf/ward.h"
 #include "fit/slice.h"
 #include "statistics.h"
 
 namespace lobelight {
 namespace {
-
-using testing::kPi;
 
 TEST_CASE("Ward 1992 has the value that its paper's equation gives by hand") {
   // Normal incidence and view: h = n, the exponential is 1.

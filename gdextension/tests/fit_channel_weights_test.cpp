@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "brdf/ggx.h"
 #include "fit/channel_weights.h"
 #include "fit/em.h"
@@ -10,8 +11,6 @@
 
 namespace lobelight {
 namespace {
-
-using testing::kPi;
 
 // Nodes of equal solid angle over the whole sphere, weighted by three mixtures of the same lobes.
 struct Coloured {

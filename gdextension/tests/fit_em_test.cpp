@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/pi.h"
 #include "fit/em.h"
 #include "fit/initial_guess.h"
 #include "statistics.h"
@@ -237,7 +238,7 @@ TEST_CASE("The cap on sharpness is above what the narrowest slices ask of one lo
   const auto brdf = make_brdf("ward", {1e-4, 1e-4});
   for (const double degrees : {0.0, 60.0, 89.4}) {
     CAPTURE(degrees);
-    const double angle = degrees * testing::kPi / 180.0;
+    const double angle = degrees * kPi / 180.0;
     const double cosine = std::cos(angle);
     const Slice slice = sample_slice(*brdf, {std::sin(angle), 0.0, cosine});
     const EmResult one = run_em(slice, initial_guess(slice, 1));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "brdf/binary_file.h"
 #include "brdf/ggx.h"
 #include "fit/channel_weights.h"
@@ -13,7 +14,6 @@
 namespace lobelight {
 namespace {
 
-using testing::kPi;
 using testing::TemporaryFile;
 
 // ∫|a − b| over the slices of `brdf`, as a share of its albedo; mean over the views up to 80°.

@@ -5,13 +5,12 @@
 #include <functional>
 #include <vector>
 
+#include "base/pi.h"
 #include "fit/pyramid_kernel.h"
 #include "statistics.h"
 
 namespace lobelight {
 namespace {
-
-using testing::kPi;
 
 // ∫₀^end f(t) dt by the midpoint rule, with steps that grow from the start on.
 double integral(const std::function<double(double)>& f, double end) {

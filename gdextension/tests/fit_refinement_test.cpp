@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
 #include "fit/em.h"
 #include "fit/initial_guess.h"
 #include "fit/pyramid_kernel.h"
@@ -12,8 +13,6 @@
 
 namespace lobelight {
 namespace {
-
-using testing::kPi;
 
 const glm::dvec3 kOblique = glm::normalize(glm::dvec3(0.5, 0.2, 0.7));
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "base/pi.h"
 #include "brdf_oracle.h"
 #include "fit/mirror.h"
 #include "fit/slice.h"
@@ -13,8 +14,6 @@
 
 namespace lobelight {
 namespace {
-
-using testing::kPi;
 
 glm::dvec3 view(double elevation_degrees, double azimuth_degrees) {
   const double e = elevation_degrees * kPi / 180.0;

@@ -6,14 +6,13 @@
 #include <stdexcept>
 #include <thread>
 
+#include "base/pi.h"
 #include "fit/table_fitter.h"
 #include "fit/view_error.h"
 #include "statistics.h"
 
 namespace lobelight {
 namespace {
-
-using testing::kPi;
 
 Recipe small_recipe(const char* brdf, const glm::dvec2& alpha, FitMethod method) {
   Recipe recipe;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <random>
 
+#include "base/pi.h"
 #include "brdf/ggx.h"
 #include "statistics.h"
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <limits>
 #include <random>
 #include <stdexcept>
 
+#include "base/pi.h"
 #include "reference/environment_distribution.h"
 
 namespace lobelight {
@@ -47,12 +47,10 @@ double probability(const EnvironmentDistribution& environment, const ClusterChoi
     for (int i = 0; i < steps; ++i) {
       const double u = u0 + (u1 - u0) * (i + 0.5) / steps;
       const double v = v0 + (v1 - v0) * (j + 0.5) / steps;
-      sum +=
-          environment.at(choice, panorama_direction({u, v})).pdf * std::sin(glm::pi<double>() * v);
+      sum += environment.at(choice, panorama_direction({u, v})).pdf * std::sin(kPi * v);
     }
   }
-  return sum * (u1 - u0) * (v1 - v0) / (steps * steps) * 2.0 * glm::pi<double>() *
-         glm::pi<double>();
+  return sum * (u1 - u0) * (v1 - v0) / (steps * steps) * 2.0 * kPi * kPi;
 }
 
 TEST_CASE("EnvironmentDistribution: radiance is the panorama's") {

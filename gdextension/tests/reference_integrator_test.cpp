@@ -3,15 +3,13 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <random>
 
+#include "base/pi.h"
 #include "reference/integrator.h"
 
 namespace lobelight {
 namespace {
-
-constexpr double kPi = glm::pi<double>();
 
 // An oblique frame, so that a mixed-up axis shows.
 SurfaceFrame oblique_frame() {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "sg/mixture.h"
 #include "statistics.h"
 
@@ -14,7 +15,7 @@ TEST_CASE("A mixture is the weighted sum of its lobes") {
   for (int n = 0; n < 50; ++n) {
     const glm::dvec3 x = uniform.direction();
     CHECK(evaluate(mixture, x) ==
-          doctest::Approx(0.25 * density(mixture[0].gaussian, x) + 0.5 * 0.25 / testing::kPi));
+          doctest::Approx(0.25 * density(mixture[0].gaussian, x) + 0.5 * 0.25 / kPi));
   }
   CHECK(total_weight(mixture) == 0.75);
   CHECK(evaluate({}, {0.0, 0.0, 1.0}) == 0.0);

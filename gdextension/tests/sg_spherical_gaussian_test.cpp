@@ -3,14 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
 #include "sg/spherical_gaussian.h"
 #include "sg_oracle.h"
 #include "statistics.h"
 
 namespace lobelight {
 namespace {
-
-using testing::kPi;
 
 constexpr double kKappas[] = {0.0, 1e-300, 1e-8, 1e-3, 0.5, 3.0, 40.0, 800.0, 1e5, 1e8, 1e10};
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/pi.h"
+
 namespace lobelight::testing {
 
 namespace {

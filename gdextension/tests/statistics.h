@@ -8,8 +8,6 @@
 
 namespace lobelight::testing {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // Uniform numbers in [0, 1), the same on every machine (std::uniform_real_distribution is not).
 class Uniform {
  public:

@@ -4,13 +4,12 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/pi.h"
 #include "statistics.h"
 #include "table/lobe_table.h"
 
 namespace lobelight {
 namespace {
-
-using testing::kPi;
 
 glm::dvec3 direction(double elevation, double azimuth) {
   return {std::sin(elevation) * std::cos(azimuth), std::sin(elevation) * std::sin(azimuth),

@@ -2,9 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <stdexcept>
 #include <string>
+
+#include "base/input_file.h"
 
 namespace lobelight {
 
@@ -23,7 +24,7 @@ class BinaryFile {
   explicit BinaryFile(const std::string& path);  // UTF-8
 
   const std::string& path() const { return path_; }
-  std::uint64_t size() const { return size_; }
+  std::uint64_t size() const { return file_.size(); }
 
   // Ends the reading with "FILE: reason".
   [[noreturn]] void fail(const std::string& reason) const;
@@ -41,8 +42,7 @@ class BinaryFile {
   void read_bytes(std::uint64_t offset, char* bytes, std::uint64_t count, const std::string& what);
 
   std::string path_;
-  std::uint64_t size_ = 0;
-  std::ifstream stream_;
+  InputFile file_;
 };
 
 }  // namespace lobelight

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
+
 namespace lobelight {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 bool above_horizon(const glm::dvec3& i, const glm::dvec3& o) { return i.z > 0.0 && o.z > 0.0; }
 

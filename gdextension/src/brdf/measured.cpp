@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/pi.h"
 #include "brdf/merl.h"
 #include "brdf/rgl.h"
 #include "brdf/tensor_file.h"
@@ -14,8 +15,6 @@
 namespace lobelight {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Views with tables of samples; between them, tables are blended. Half-vectors: √θ and the azimuth,
 // finer for anisotropic materials, whose ridges are narrow in azimuth. The number of azimuths is a

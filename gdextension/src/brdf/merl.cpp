@@ -9,13 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/pi.h"
 #include "brdf/binary_file.h"
 
 namespace lobelight {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 constexpr int kThetaHalf = 90;
 constexpr int kThetaDifference = 90;

@@ -7,14 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/pi.h"
 #include "brdf/gridded.h"
 #include "brdf/tensor_file.h"
 
 namespace lobelight {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Above this a slice's nodes are taken for those of an anisotropic material.
 constexpr std::size_t kIsotropicAzimuths = 2;

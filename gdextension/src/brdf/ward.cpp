@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "base/pi.h"
+
 namespace lobelight {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // e^{−(h_x²/α_x² + h_y²/α_y²)/h_z²}; any positive multiple of h will do.
 double slope_gaussian(const glm::dvec3& h, const glm::dvec2& alpha) {

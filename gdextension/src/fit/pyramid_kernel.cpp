@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
+
 namespace lobelight {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // (1 − t/T)^4 has variance 1 per axis for T = 2 (4 + 2).
 constexpr double kReach = 12.0;

@@ -6,7 +6,6 @@
 #include <exception>
 #include <filesystem>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 #include <limits>
 #include <memory>
@@ -15,6 +14,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "base/pi.h"
 #include "brdf/measured.h"
 #include "fit/roughness_fitter.h"
 #include "fit/slice.h"
@@ -250,7 +250,7 @@ PackedFloat32Array LobeBaker::slice_in_plane(const String& brdf, const Vector2& 
     const std::shared_ptr<const Brdf> model = find_brdf(brdf, alpha);
     std::vector<double> values;
     for (int n = 0; n < count; ++n) {
-      const double angle = glm::pi<double>() * (n / (count - 1.0) - 0.5);
+      const double angle = kPi * (n / (count - 1.0) - 0.5);
       const glm::dvec3 i(std::sin(angle) * azimuth, std::cos(angle));
       values.push_back(model->evaluate(i, o) * i.z);
     }

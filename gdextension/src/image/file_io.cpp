@@ -6,6 +6,7 @@
 #include <random>
 #include <system_error>
 
+#include "base/input_file.h"
 #include "image/image_error.h"
 
 namespace lobelight {
@@ -13,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Well above the largest panorama as floats; a sparse file cannot ask for more memory than this.
-constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 33;
+// Well above the largest panorama as floats.
+constexpr int kMostGib = 8;
 
 std::string system_reason(int error) {
   return error == 0 ? "unknown reason" : std::generic_category().message(error);
@@ -29,27 +30,13 @@ fs::path temporary_beside(const fs::path& path) {
 
 }  // namespace
 
-std::vector<std::uint8_t> read_file(const std::string& path) {
-  const fs::path file = fs::u8path(path);
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) throw ImageError(path, "no such file");
-  if (error) throw ImageError(path, "cannot be opened (" + error.message() + ")");
-  if (fs::is_directory(status)) throw ImageError(path, "is a folder, not a file");
-  if (!fs::is_regular_file(status)) throw ImageError(path, "is not a regular file");
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (error) throw ImageError(path, "cannot be opened (" + error.message() + ")");
-  if (size > kMaxFileBytes) throw ImageError(path, "is larger than 8 GiB");
-
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw ImageError(path, "cannot be opened (" + system_reason(errno) + ")");
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) {
-    throw ImageError(path, "cannot be read (" + system_reason(errno) + ")");
-  }
+std::vector<std::uint8_t> read_file(const std::string& path) try {
+  InputFile file(path, kMostGib);
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(file.size()));
+  file.read(0, reinterpret_cast<char*>(bytes.data()), bytes.size());
   return bytes;
+} catch (const FileProblem& problem) {
+  throw ImageError(path, problem.what());
 }
 
 void write_file_atomically(const std::string& path, const std::vector<char>& bytes) {

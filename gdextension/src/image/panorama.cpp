@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/gtc/constants.hpp>
 
+#include "base/pi.h"
 #include "image/exr.h"
 #include "image/file_io.h"
 #include "image/image_error.h"
@@ -20,15 +20,15 @@ double light(float value) { return is_light(value) ? static_cast<double>(value) 
 }  // namespace
 
 glm::dvec2 panorama_position(const glm::dvec3& direction) {
-  const double turn = std::atan2(direction.x, -direction.z) / glm::two_pi<double>();
+  const double turn = std::atan2(direction.x, -direction.z) / (2.0 * kPi);
   // A tiny negative turn rounds up to 1, which is 0 again.
   const double u = turn - std::floor(turn);
-  return {u < 1.0 ? u : 0.0, std::acos(glm::clamp(direction.y, -1.0, 1.0)) / glm::pi<double>()};
+  return {u < 1.0 ? u : 0.0, std::acos(glm::clamp(direction.y, -1.0, 1.0)) / kPi};
 }
 
 glm::dvec3 panorama_direction(const glm::dvec2& position) {
-  const double azimuth = glm::two_pi<double>() * position.x;
-  const double polar = glm::pi<double>() * position.y;
+  const double azimuth = 2.0 * kPi * position.x;
+  const double polar = kPi * position.y;
   const double radius = std::sin(polar);
   return {radius * std::sin(azimuth), std::cos(polar), -radius * std::cos(azimuth)};
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/pi.h"
+
 namespace lobelight {
 
 namespace {
@@ -44,7 +46,7 @@ Panorama synthetic_panorama() {
       const glm::dvec2 position((column + 0.5) / panorama.width, (row + 0.5) / panorama.height);
       const glm::dvec3 d = panorama_direction(position);
       // Walls: columns that fade downwards, around a brightness of 1.
-      const double wall = std::pow(2.0, d.y + 0.5 * std::sin(24.0 * 3.14159265358979 * position.x) *
+      const double wall = std::pow(2.0, d.y + 0.5 * std::sin(24.0 * kPi * position.x) *
                                                   std::sqrt(std::max(0.0, 1.0 - d.y * d.y)));
       glm::dvec3 radiance(wall);
       for (const Light& light : kLights) {

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <stdexcept>
+
+#include "base/pi.h"
 
 namespace lobelight {
 namespace {
@@ -32,7 +33,7 @@ std::vector<double> texel_weights(const std::vector<glm::vec4>& texels, int widt
   std::vector<double> weights(texels.size());
   const auto sine = [&](std::size_t texel) {
     const std::size_t row = texel / static_cast<std::size_t>(width);
-    return std::sin(glm::pi<double>() * (static_cast<double>(row) + 0.5) / height);
+    return std::sin(kPi * (static_cast<double>(row) + 0.5) / height);
   };
   double sum = 0.0;
   double area = 0.0;
@@ -120,7 +121,7 @@ EnvironmentSample EnvironmentDistribution::interpolate(const ClusterChoice& choi
   if (!(density > 0.0)) return {direction, radiance, 0.0};
   // dω = 2π² sin θ du dv
   const double sine = std::sqrt(direction.x * direction.x + direction.z * direction.z);
-  return {direction, radiance, density / (2.0 * glm::pi<double>() * glm::pi<double>() * sine)};
+  return {direction, radiance, density / (2.0 * kPi * kPi * sine)};
 }
 
 EnvironmentSample EnvironmentDistribution::at(const ClusterChoice& choice,

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/pi.h"
+
 namespace lobelight {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Texels are summed where the lobe's standard deviation spans at least this many of them; what is
 // left out of a Gaussian sampled that densely is below 1e-8 of it.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/vec2.hpp>
 #include <queue>
 
+#include "base/pi.h"
 #include "image/panorama.h"
 
 namespace lobelight {
@@ -85,9 +85,8 @@ class Builder {
   Cell make_cell(int column, int row, int size, std::size_t first, std::size_t last) const {
     const double share = result_.cumulative[last] - result_.cumulative[first];
     const double middle = std::min(row + 0.5 * size, static_cast<double>(height_)) / height_;
-    const double tall = glm::pi<double>() * size / height_;
-    const double wide =
-        glm::two_pi<double>() * size / width_ * std::sin(glm::pi<double>() * middle);
+    const double tall = kPi * size / height_;
+    const double wide = 2.0 * kPi * size / width_ * std::sin(kPi * middle);
     return {column, row, size, first, last, size == 1 ? 0.0 : share * std::max(tall, wide)};
   }
 

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
 #include "sg/frame.h"
 
 namespace lobelight {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kTwoPi = 2.0 * kPi;
 
 // Below this sharpness the closed form of R̄ cancels; its series is exact to a few ulp there.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/pi.h"
 #include "table/half_float.h"
 #include "table/half_vector.h"
 
@@ -12,7 +13,7 @@ namespace lobelight {
 namespace {
 
 constexpr double kLargestHalf = 65504.0;
-constexpr double kHalfPi = 1.57079632679489661923;
+constexpr double kHalfPi = 0.5 * kPi;
 
 // cos(LobeTable::kMaxElevation)
 constexpr double kLeastCosine = 0.0104717841162458;

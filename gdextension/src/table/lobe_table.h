@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/pi.h"
 #include "sg/mixture.h"
 
 namespace lobelight {
@@ -19,7 +20,7 @@ namespace lobelight {
 class LobeTable {
  public:
   // 89.4°: Ward's albedo diverges at the horizon, so the last view stops short of it.
-  static constexpr double kMaxElevation = 89.4 * 3.14159265358979323846 / 180.0;
+  static constexpr double kMaxElevation = 89.4 * kPi / 180.0;
   // Range of the stored log2(κ (o·h)).
   static constexpr double kMinLog2Kappa = -10.0;
   static constexpr double kMaxLog2Kappa = 27.0;
