@@ -10,6 +10,7 @@ namespace {
 
 std::atomic<std::size_t> held{0};
 std::atomic<std::size_t> peak{0};
+thread_local int until_failure = -1;
 
 // Each block carries its size and where it began in front of it.
 struct Header {
@@ -18,6 +19,7 @@ struct Header {
 };
 
 void* allocate(std::size_t size, std::size_t alignment) {
+  if (until_failure >= 0 && until_failure-- == 0) throw std::bad_alloc();
   if (alignment < alignof(Header)) alignment = alignof(Header);
   void* begin = std::malloc(size + alignment + sizeof(Header));
   if (begin == nullptr) throw std::bad_alloc();
@@ -44,6 +46,12 @@ void release(void* block) noexcept {
 void reset_peak_bytes() { peak = held.load(); }
 std::size_t held_bytes() { return held; }
 std::size_t peak_bytes() { return peak; }
+
+bool fail_allocation(int n) {
+  const bool was_to_come = until_failure >= 0;
+  until_failure = n;
+  return was_to_come;
+}
 
 }  // namespace lobelight::bench
 

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "allocated_bytes.h"
 #include "base/background_work.h"
 
 namespace lobelight {
@@ -113,6 +114,25 @@ TEST_CASE("stop_all does not hurt work that comes after it") {
   BackgroundWork work([](Progress&) {}, [&] { done = true; });
   work.wait();
   CHECK(done);
+}
+
+TEST_CASE("work that cannot be begun for want of memory leaves nothing behind") {
+  bool failed = true;
+  for (int n = 0; failed && n < 100; ++n) {
+    const std::function<void(Progress&)> work = work_for_ever;
+    const std::function<void()> done = nothing;
+    CAPTURE(n);
+    std::unique_ptr<BackgroundWork> begun;
+    bench::fail_allocation(n);
+    try {
+      begun = std::make_unique<BackgroundWork>(work, done);
+    } catch (const std::bad_alloc&) {
+    }
+    failed = !bench::fail_allocation(-1);
+    CHECK((begun != nullptr) == !failed);
+    BackgroundWork::stop_all();
+  }
+  CHECK_FALSE(failed);
 }
 
 }  // namespace lobelight

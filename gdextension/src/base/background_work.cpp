@@ -20,9 +20,15 @@ Registry& registry() {
 
 BackgroundWork::BackgroundWork(std::function<void(Progress&)> work, std::function<void()> done) {
   const std::lock_guard lock(registry().mutex);
-  thread_ =
-      std::thread([this, work = std::move(work), done = std::move(done)] { run(work, done); });
-  registry().works.insert(this);
+  // Before there is a thread: nothing may fail once it runs.
+  const auto place = registry().works.insert(this).first;
+  try {
+    thread_ =
+        std::thread([this, work = std::move(work), done = std::move(done)] { run(work, done); });
+  } catch (...) {
+    registry().works.erase(place);
+    throw;
+  }
 }
 
 BackgroundWork::~BackgroundWork() {

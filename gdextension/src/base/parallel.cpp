@@ -4,15 +4,14 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace lobelight {
 
 int resolve_threads(int threads) {
-  if (threads > 0) return threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
+  return std::clamp(threads, 1, kMaxThreads);
 }
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
@@ -34,16 +33,24 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   };
 
   std::vector<std::thread> pool;
-  for (std::size_t i = 1; i < workers; ++i) {
-    try {
-      pool.emplace_back(run);
-    } catch (const std::system_error&) {
-      break;  // The system refuses more threads: those that started do all the work.
-    }
+  try {
+    // First, so that no thread is lost where the list of them cannot grow.
+    pool.reserve(workers);
+    for (std::size_t i = 1; i < workers; ++i) pool.emplace_back(run);
+  } catch (const std::exception&) {
+    // The system refuses more threads, or memory for them: those that started do all the work.
   }
   run();
   for (std::thread& thread : pool) thread.join();
   if (failure) std::rethrow_exception(failure);
+}
+
+void parallel_for(std::size_t count, int threads, const Progress& progress,
+                  const std::function<void(std::size_t)>& work) {
+  parallel_for(count, threads, [&](std::size_t index) {
+    progress.throw_if_cancelled();
+    work(index);
+  });
 }
 
 }  // namespace lobelight

@@ -20,7 +20,8 @@ const std::vector<std::string>& brdf_names() {
   return names;
 }
 
-std::unique_ptr<Brdf> make_brdf(std::string_view name, const glm::dvec2& alpha) {
+std::unique_ptr<Brdf> make_brdf(std::string_view name, const glm::dvec2& alpha,
+                                const Progress* progress) {
   const bool is_file = is_measured_file(name);
   const bool estimated = is_file && alpha == glm::dvec2(0.0);
   // Negated comparisons would let NaN through.
@@ -32,8 +33,8 @@ std::unique_ptr<Brdf> make_brdf(std::string_view name, const glm::dvec2& alpha) 
   }
   if (is_file) {
     const std::string path(name);
-    return std::make_unique<MeasuredBrdf>(read_measured(path),
-                                          path.substr(path.find_last_of("/\\") + 1), alpha);
+    return std::make_unique<MeasuredBrdf>(
+        read_measured(path), path.substr(path.find_last_of("/\\") + 1), alpha, progress);
   }
   if (name == "ward") return std::make_unique<Ward>(alpha);
   if (name == "ward_bounded") return std::make_unique<WardBounded>(alpha);

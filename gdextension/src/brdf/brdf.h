@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/progress.h"
+
 namespace lobelight {
 
 struct BrdfSample {
@@ -64,7 +66,9 @@ constexpr double kMaxAlpha = 2.0;
 // The model called `name`, or the measurements in the file of that path (is_measured_file()).
 // Throws std::invalid_argument with a whole sentence for a name that brdf_names() does not list and
 // for a width that is not in [kMinAlpha, kMaxAlpha], and MeasuredFileError. For files, `alpha` may
-// be (0, 0): the widths are then estimated; what a file reflects does not depend on them.
-std::unique_ptr<Brdf> make_brdf(std::string_view name, const glm::dvec2& alpha);
+// be (0, 0): the widths are then estimated; what a file reflects does not depend on them. Files
+// take a while to read: throws Cancelled when `progress`, which may be null, is cancelled.
+std::unique_ptr<Brdf> make_brdf(std::string_view name, const glm::dvec2& alpha,
+                                const Progress* progress = nullptr);
 
 }  // namespace lobelight

@@ -97,7 +97,7 @@ std::unique_ptr<MeasuredData> read_measured(const std::string& path) {
   return is_rgl ? read_rgl(path) : read_merl(path);
 }
 
-glm::dvec2 estimate_widths(const MeasuredData& data) {
+glm::dvec2 estimate_widths(const MeasuredData& data, const Progress* progress) {
   // p(s) on rings whose radii grow in equal ratios, so that narrow lobes are met with as many nodes
   // as wide ones. Slopes stay below 1: there the light is at the horizon.
   constexpr int kRings = 400;
@@ -114,6 +114,7 @@ glm::dvec2 estimate_widths(const MeasuredData& data) {
   };
   const glm::dvec3 up(0.0, 0.0, 1.0);
   for (int ring = 0; ring < kRings; ++ring) {
+    throw_if_cancelled(progress);
     const double s = ring_slope(ring);
     for (int spoke = 0; spoke < kSpokes; ++spoke) {
       // One quadrant stands for its mirror images.
@@ -192,15 +193,15 @@ MeasuredBrdf::Place MeasuredBrdf::place_view(const glm::dvec3& o) const {
 }
 
 MeasuredBrdf::MeasuredBrdf(std::unique_ptr<MeasuredData> data, std::string name,
-                           const glm::dvec2& alpha)
-    : Brdf(alpha == glm::dvec2(0.0) ? estimate_widths(*data) : alpha),
+                           const glm::dvec2& alpha, const Progress* progress)
+    : Brdf(alpha == glm::dvec2(0.0) ? estimate_widths(*data, progress) : alpha),
       data_(std::move(data)),
       name_(std::move(name)),
       views_(sample_views(data_->is_isotropic())) {
-  tabulate_samples();
+  tabulate_samples(progress);
 }
 
-void MeasuredBrdf::tabulate_samples() {
+void MeasuredBrdf::tabulate_samples(const Progress* progress) {
   const GridSize size{kHalfVectorColumns, is_isotropic() ? kHalfVectorRows : kAnisotropicRows};
   std::vector<float> values(views_.slices() * size.values());
   struct Sums {
@@ -216,6 +217,7 @@ void MeasuredBrdf::tabulate_samples() {
     float* const table = &values[slice * size.values()];
     Sums& sum = sums[slice];
     for (std::size_t row = 0; row < size.rows; ++row) {
+      throw_if_cancelled(progress);
       for (std::size_t column = 0; column < size.columns; ++column) {
         const glm::dvec2 point(static_cast<double>(column) / static_cast<double>(size.columns - 1),
                                static_cast<double>(row) / static_cast<double>(size.rows - 1));

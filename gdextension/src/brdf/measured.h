@@ -31,9 +31,10 @@ std::unique_ptr<MeasuredData> read_measured(const std::string& path);
 // and Jakob 2018 blend theirs.
 class MeasuredBrdf final : public Brdf {
  public:
-  // Widths at `alpha` = (0, 0): estimate_widths().
+  // Widths at `alpha` = (0, 0): estimate_widths(). Throws Cancelled when `progress`, which may be
+  // null, is cancelled.
   MeasuredBrdf(std::unique_ptr<MeasuredData> data, std::string name,
-               const glm::dvec2& alpha = {0.0, 0.0});
+               const glm::dvec2& alpha = {0.0, 0.0}, const Progress* progress = nullptr);
 
   double evaluate(const glm::dvec3& i, const glm::dvec3& o) const override;
   glm::dvec3 evaluate_rgb(const glm::dvec3& i, const glm::dvec3& o) const override;
@@ -56,7 +57,7 @@ class MeasuredBrdf final : public Brdf {
 
   Place place_view(const glm::dvec3& o) const;
   double pdf_of_half_vector(const glm::dvec2& point, double o_dot_h, const Place& place) const;
-  void tabulate_samples();
+  void tabulate_samples(const Progress* progress);
 
   std::unique_ptr<MeasuredData> data_;
   std::string name_;
@@ -75,6 +76,7 @@ class MeasuredBrdf final : public Brdf {
 // and the widths are those for which both means have this value, found by iteration from the
 // half-width at half maximum. Tails and diffuse light beyond the ellipse do not count. Isotropic
 // data get equal widths; results are in [kMinAlpha, 1].
-glm::dvec2 estimate_widths(const MeasuredData& data);
+// Throws Cancelled when `progress`, which may be null, is cancelled.
+glm::dvec2 estimate_widths(const MeasuredData& data, const Progress* progress = nullptr);
 
 }  // namespace lobelight

@@ -1,7 +1,6 @@
 #include "fit/roughness_fitter.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -88,7 +87,8 @@ class SetFit {
   }
 
   std::vector<std::uint16_t> run();
-  std::vector<std::uint16_t> fit(int table);
+  // `progress` is this table's own.
+  std::vector<std::uint16_t> fit(int table, Progress& progress);
 
  private:
   // Steps from the table that is fitted by itself: in the middle of the widths for isotropic ones;
@@ -158,12 +158,11 @@ void SetFit::fit_view(const Brdf& brdf, LobeTable& table, int t, int p, Mixture 
   table.set_mixture_at_view(t, p, run_em(slice, std::move(start), em).mixture);
 }
 
-std::vector<std::uint16_t> SetFit::fit(int table) {
+std::vector<std::uint16_t> SetFit::fit(int table, Progress& progress) {
   const std::vector<int> from = parents(table);
   const glm::ivec2 views = layout_.views(table);
   if (from.empty()) {
-    Progress own;
-    return fit_table(table_recipe(recipe_, alpha(table), views), own, nullptr).to_rgba16f();
+    return fit_table(table_recipe(recipe_, alpha(table), views), progress, nullptr).to_rgba16f();
   }
   const auto brdf = make_brdf(recipe_.brdf, alpha(table));
   Blend blend(alpha(table), views, recipe_.lobes);
@@ -205,6 +204,7 @@ std::vector<std::uint16_t> SetFit::fit(int table) {
                  mirrors[static_cast<std::size_t>(t)], kSmoothingIterations);
       }
     }
+    progress.set((p + 1.0) / views.y);
   }
   return result.to_rgba16f();
 }
@@ -218,14 +218,14 @@ std::vector<std::uint16_t> SetFit::run() {
     if (fronts.size() <= d) fronts.resize(d + 1);
     fronts[d].push_back(table);
   }
-  std::atomic<int> finished{0};
   for (const std::vector<int>& front : fronts) {
-    parallel_for(front.size(), recipe_.threads, [&](std::size_t n) {
-      progress_.throw_if_cancelled();
-      const std::vector<std::uint16_t> own = fit(front[n]);
+    parallel_for(front.size(), recipe_.threads, progress_, [&](std::size_t n) {
+      // Views are what takes the time.
+      Progress progress(progress_, static_cast<double>(layout_.size(front[n])) /
+                                       static_cast<double>(layout_.total()));
+      const std::vector<std::uint16_t> own = fit(front[n], progress);
       std::copy(own.begin(), own.end(),
                 texels_.begin() + static_cast<std::ptrdiff_t>(layout_.offset(front[n])));
-      progress_.set(static_cast<double>(++finished) / layout_.tables());
     });
   }
   progress_.set(1.0);
@@ -313,7 +313,7 @@ std::vector<std::uint16_t> refit_table(const SetRecipe& recipe,
   if (table < 0 || table >= layout.tables()) {
     throw std::invalid_argument("The set has no table of this number.");
   }
-  return SetFit(recipe, texels, progress).fit(table);
+  return SetFit(recipe, texels, progress).fit(table, progress);
 }
 
 LobeTable interpolate_table_set(const SetRecipe& recipe, const std::vector<std::uint16_t>& texels,

@@ -1,6 +1,7 @@
 #include "fit/view_error.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "base/parallel.h"
 #include "fit/slice.h"
@@ -30,13 +31,16 @@ double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture) {
   return 2.0 * sum / slice.albedo;
 }
 
-std::vector<double> view_errors(const LobeTable& table, const Brdf& brdf, int threads) {
+std::vector<double> view_errors(const LobeTable& table, const Brdf& brdf, int threads,
+                                Progress& progress) {
   const int elevations = table.views().x;
   std::vector<double> errors(static_cast<std::size_t>(elevations * table.views().y));
-  parallel_for(errors.size(), threads, [&](std::size_t n) {
+  std::atomic<int> finished{0};
+  parallel_for(errors.size(), threads, progress, [&](std::size_t n) {
     const int t = static_cast<int>(n) % elevations;
     const int p = static_cast<int>(n) / elevations;
     errors[n] = l1_error(brdf, table.view(t, p), table.mixture_at_view(t, p));
+    progress.set(static_cast<double>(++finished) / static_cast<double>(errors.size()));
   });
   return errors;
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/progress.h"
 #include "brdf/brdf.h"
 #include "table/lobe_table.h"
 
@@ -12,7 +13,8 @@ namespace lobelight {
 double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture);
 
 // l1_error() at the views of a table; view (t, p) is element p · T + t. `threads` as for
-// parallel_for().
-std::vector<double> view_errors(const LobeTable& table, const Brdf& brdf, int threads);
+// parallel_for(). Throws Cancelled.
+std::vector<double> view_errors(const LobeTable& table, const Brdf& brdf, int threads,
+                                Progress& progress);
 
 }  // namespace lobelight

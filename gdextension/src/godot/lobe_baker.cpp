@@ -85,7 +85,7 @@ Recipe read_recipe(const Request& request) {
 }
 
 Dictionary to_dictionary(const LobeTable& table, const FitReport& report, const Brdf& brdf,
-                         const Recipe& recipe) {
+                         const Recipe& recipe, Progress& progress) {
   Dictionary result;
   result["brdf"] = to_godot(brdf.name());
   result["alpha"] = to_godot(table.alpha());
@@ -102,7 +102,8 @@ Dictionary to_dictionary(const LobeTable& table, const FitReport& report, const 
   result["log_likelihood"] = to_godot(report.log_likelihood);
   result["first_view_curve"] = to_godot(report.first_view_curve);
   // Refined lobes do not stand for Gaussians.
-  if (!recipe.refine) result["errors"] = to_godot(view_errors(table, brdf, recipe.threads));
+  if (!recipe.refine)
+    result["errors"] = to_godot(view_errors(table, brdf, recipe.threads, progress));
   if (const auto* measured = dynamic_cast<const MeasuredBrdf*>(&brdf)) {
     result["clamped"] = static_cast<std::int64_t>(measured->clamped());
     result["asymmetry"] = measured->asymmetry();
@@ -114,13 +115,15 @@ Dictionary bake_recipe(const Recipe& recipe, Progress& progress) {
   FitReport report;
   const std::unique_ptr<Brdf> brdf = make_brdf(recipe.brdf, recipe.alpha);
   const LobeTable table = fit_table(*brdf, recipe, progress, &report);
-  return to_dictionary(table, report, *brdf, recipe);
+  Progress errors(progress, 0.0);
+  return to_dictionary(table, report, *brdf, recipe, errors);
 }
 
 Dictionary bake_enough_lobes(const LobeCountRequest& request, Progress& progress) {
   const std::unique_ptr<Brdf> brdf = make_brdf(request.recipe.brdf, request.recipe.alpha);
   const LobeCount found = find_lobe_count(request, *brdf, progress);
-  Dictionary result = to_dictionary(found.table, found.report, *brdf, request.recipe);
+  Progress errors(progress, 0.0);
+  Dictionary result = to_dictionary(found.table, found.report, *brdf, request.recipe, errors);
   result["target"] = request.target;
   result["predicted_psnr"] = found.trials.back().psnr;
   return result;
