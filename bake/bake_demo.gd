@@ -1,7 +1,9 @@
 extends SceneTree
 ## Fits what the demo draws besides the ready tables: sets of GGX with 4 and 16 lobes, and one with
 ## the views fitted each by itself, as in Töral 2015. Their widths are coarser than the ready sets',
-## so that this takes a minute and not ten: `--set ggx_4|ggx_16|thesis_8 --out FILE`.
+## so that this takes a minute and not ten: `--set ggx_4|ggx_16|thesis_8 --out FILE`. `--views T,P`
+## fits other numbers of elevations and azimuths than the usual ones: fewer serve tests that do not
+## look at how good the lobes are.
 
 ## Widths on each axis, growing by factors of two.
 const WIDTHS: Array[float] = [0.01, 0.02, 0.04, 0.08, 0.16, 0.32, 0.64]
@@ -9,12 +11,14 @@ const BRDF := "ggx"
 ## Elevations × azimuths of one quadrant. The thesis does not give them; `./dev compare` takes twice
 ## as many along each axis.
 const THESIS_VIEWS := Vector2i(32, 12)
+## The usual ones of sets.
+const SET_VIEWS := Vector2i(16, 8)
 const LOBES: Dictionary[String, int] = {"ggx_4": 4, "ggx_16": 16, "thesis_8": 8}
 ## Widths that are further apart than this many factors of two are out of the demo's reach: the
 ## tables of the furthest pair within stand there.
 const _MOST_APART := 4
 
-var _arguments := CommandLine.new("demo", ["set", "out"])
+var _arguments := CommandLine.new("demo", ["set", "views", "out"])
 
 
 func _initialize() -> void:
@@ -29,11 +33,15 @@ func _run() -> void:
 	_arguments.fail_if(NativeLibrary.error())
 	if name not in LOBES:
 		_arguments.fail("--set must be one of %s, not %s." % [", ".join(LOBES.keys()), name])
+	var is_thesis := name.begins_with("thesis")
+	var usual := Vector2(THESIS_VIEWS if is_thesis else SET_VIEWS)
+	var views := _arguments.numbers("views", 2, [usual.x, usual.y])
 	if _arguments.error.is_empty():
+		var grid := Vector2i(int(views[0]), int(views[1]))
 		var made := (
-			await _bake_thesis(LOBES[name])
-			if name.begins_with("thesis")
-			else await _bake_set(LOBES[name])
+			await _bake_thesis(LOBES[name], grid)
+			if is_thesis
+			else await _bake_set(LOBES[name], grid)
 		)
 		if made != null:
 			_arguments.fail_if(AtomicFile.save_resource(made, out))
@@ -42,8 +50,8 @@ func _run() -> void:
 	quit(0 if _arguments.error.is_empty() else 1)
 
 
-func _bake_set(lobes: int) -> LobeTableSet:
-	var recipe := {"brdf": BRDF, "widths": WIDTHS, "lobes": lobes}
+func _bake_set(lobes: int, views: Vector2i) -> LobeTableSet:
+	var recipe := {"brdf": BRDF, "widths": WIDTHS, "lobes": lobes, "views": [views.x, views.y]}
 	var label := "fitting GGX, %d lobes" % lobes
 	var result := await NativeLibrary.run(NativeLibrary.create(&"LobeBaker"), recipe, label, self)
 	if result.has("error"):
@@ -52,7 +60,7 @@ func _bake_set(lobes: int) -> LobeTableSet:
 	return LobeTableSet.from_baked(result)
 
 
-func _bake_thesis(lobes: int) -> LobeTableSet:
+func _bake_thesis(lobes: int, views: Vector2i) -> LobeTableSet:
 	var texels := PackedByteArray()
 	var line := ProgressLine.new("fitting the thesis' tables")
 	for wide in WIDTHS.size():
@@ -60,17 +68,17 @@ func _bake_thesis(lobes: int) -> LobeTableSet:
 		for narrow in range(wide, -1, -1):
 			# From equal widths on, so that what is out of reach has its neighbour's.
 			if wide - narrow <= _MOST_APART:
-				nearest = await _fit_views(WIDTHS[wide], WIDTHS[narrow], THESIS_VIEWS, lobes)
+				nearest = await _fit_views(WIDTHS[wide], WIDTHS[narrow], views, lobes)
 			if not _arguments.error.is_empty():
 				return null
 			texels = _insert(texels, nearest, wide * (wide + 1) / 2)
 		line.show((wide + 1.0) / (WIDTHS.size() + 1.0))
 	for width in WIDTHS:
-		texels.append_array(await _fit_views(width, width, Vector2i(THESIS_VIEWS.x, 1), lobes))
+		texels.append_array(await _fit_views(width, width, Vector2i(views.x, 1), lobes))
 		if not _arguments.error.is_empty():
 			return null
 	line.finish()
-	return _make_set(texels, lobes)
+	return _make_set(texels, lobes, views)
 
 
 # Puts a table in front of those of the same first width, which begin at number `table`.
@@ -115,15 +123,15 @@ func _fit_views(wide: float, narrow: float, views: Vector2i, lobes: int) -> Pack
 	return repeated
 
 
-func _make_set(texels: PackedByteArray, lobes: int) -> LobeTableSet:
+func _make_set(texels: PackedByteArray, lobes: int, views: Vector2i) -> LobeTableSet:
 	var tables := LobeTableSet.new()
 	tables.brdf = BRDF
 	tables.widths = PackedFloat64Array(WIDTHS)
 	tables.lobe_count = lobes
-	tables.views = THESIS_VIEWS
+	tables.views = views
 	@warning_ignore("integer_division")
-	var height := texels.size() / (8 * THESIS_VIEWS.x)
-	tables.image = Image.create_from_data(THESIS_VIEWS.x, height, false, Image.FORMAT_RGBAH, texels)
+	var height := texels.size() / (8 * views.x)
+	tables.image = Image.create_from_data(views.x, height, false, Image.FORMAT_RGBAH, texels)
 	tables.resource_scene_unique_id = "set"
 	_arguments.fail_if(tables.get_problem())
 	return tables

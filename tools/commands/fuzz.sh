@@ -54,20 +54,8 @@ done
 [[ -n $minutes ]] || die "fuzz: say for how long, for example --minutes 1"
 ((${#readers[@]} > 0)) || readers=("${known[@]}")
 
-need_packages
-need_openexr
+bash "$ROOT/tools/setup/fuzz.sh"
 build=$ROOT/build/cmake
-compile() {
-  cd "$ROOT/gdextension"
-  cmake --preset release -DLOBELIGHT_DEPS_DIR="$OPENEXR_DIR"
-  cmake --build "$build" --target lobelight_fuzz --parallel "$JOBS"
-}
-mkdir -p "$ROOT/build/fuzz"
-touch "$ROOT/build/.gdignore"
-exec {lock}>"$ROOT/build/lock"
-flock "$lock"
-step "Building the readers with sanitizers" compile
-exec {lock}>&-
 
 # OpenJPH, within OpenEXR, prints each fault that it finds in a file: errors here, remarks to stdout.
 quiet() {

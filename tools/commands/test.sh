@@ -7,6 +7,8 @@ source "$ROOT/tools/lib/gdunit.sh"
 source "$ROOT/tools/lib/demo_tables.sh"
 # shellcheck source=tools/testing/runners.sh
 source "$ROOT/tools/testing/runners.sh"
+# shellcheck source=tools/testing/lanes.sh
+source "$ROOT/tools/testing/lanes.sh"
 
 GROUPS_OF_TESTS=(lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers render)
 
@@ -15,6 +17,8 @@ usage() {
 usage: ./dev test [GROUP…] [--json FILE]
 
 Groups, all of them if none is named: ${GROUPS_OF_TESTS[*]}
+What they need is made first, once. Then they run side by side, as many at once as there are cores, up to 4; each one's output
+is shown when it has ended, and says how long it took. LOBELIGHT_JOBS=1 runs one after another.
 The last line is "N passed, N failed". Logs and reports are kept in build/test.
 LOBELIGHT_RENDERERS="mobile …" limits the rendered suites to these renderers.
 USAGE
@@ -44,16 +48,23 @@ while (($# > 0)); do
 done
 ((${#groups[@]} > 0)) || groups=("${GROUPS_OF_TESTS[@]}")
 
-need_engine
-need_python
-need_library
-need_gdunit
-need_import
+mapfile -t runners < <(for group in "${groups[@]}"; do jobs_of "$group"; done | awk '!seen[$0]++')
+mapfile -t runners < <(order_jobs "${runners[@]}")
+
+# Tests draw small pictures with many shaders: what Mesa's compiler spends on optimising them is never earned back. What
+# is drawn stays the same.
+export GALLIVM_PERF=${GALLIVM_PERF:-nopt}
+export LOBELIGHT_DRAFT_TABLES=yes
 
 rm -rf "$RESULTS"
 mkdir -p "$RESULTS"
-for group in "${groups[@]}"; do
-  "run_$group"
-done
+prepare_tests "${runners[@]}"
+if ((${#runners[@]} > 1 && JOBS > 1)); then
+  run_side_by_side "${runners[@]}"
+else
+  for runner in "${runners[@]}"; do
+    "run_$runner"
+  done
+fi
 mapfile -t outcomes < <(find "$RESULTS" -maxdepth 1 -name '*.json' -printf '%T@ %p\n' | sort -n | cut -d' ' -f2-)
 "$PYTHON" "$ROOT/tools/testing/results.py" total "${outcomes[@]}" "${total_options[@]}"

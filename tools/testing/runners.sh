@@ -1,19 +1,27 @@
 # shellcheck shell=bash
 # The runners of ./dev test, one function each. Each runs its tests with the output on the terminal and in a log
-# below $RESULTS, and has tools/testing/results.py judge them.
+# below $RESULTS, and has tools/testing/results.py judge them. Runners may run side by side: what they need, and share, is
+# made by prepare_tests beforehand.
 
 RESULTS=$ROOT/build/test
 # Seconds after which a runner is stopped: far more than any needs on two cores with a software renderer.
 RUNNER_LIMIT=${LOBELIGHT_TEST_LIMIT:-3600}
 
-# run_logged NAME COMMAND…: runs COMMAND with its output on the terminal and in NAME.log; sets $status.
+# run_logged NAME COMMAND…: runs COMMAND with its output on the terminal and in NAME.log, and says how long it took; sets
+# $status.
 run_logged() {
-  local name=$1
+  local name=$1 times
   shift
   echo
   echo "== $name"
   status=0
-  "$@" 2>&1 | tee "$RESULTS/$name.log" || status=${PIPESTATUS[0]}
+  times=$(mktemp)
+  {
+    TIMEFORMAT='%0R s, %0U + %0S s of processor time'
+    time { "$@" 2>&1 | tee "$RESULTS/$name.log" || status=${PIPESTATUS[0]}; } 2>&3
+  } 3>&2 2>"$times"
+  echo "== $name: $(<"$times")"
+  rm -f "$times"
 }
 
 # judge NAME [OPTION…]: counts what NAME's run, which ended with $status, has in its log or report.
@@ -25,15 +33,68 @@ judge() {
   [[ -s $RESULTS/$name.json ]] || die "test: what $name did could not be judged"
 }
 
-# Tests of the C++ core, through CTest, and a few seconds of its file readers under sanitizers.
+# Tests of the C++ core, through CTest.
 run_cpp() {
-  need_native_tests
   rm -f "$RESULTS/cpp.xml"
   run_logged cpp ctest --test-dir "$ROOT/build/cmake" --timeout "$RUNNER_LIMIT" --parallel "$JOBS" \
     --no-tests=error --output-on-failure --output-junit "$RESULTS/cpp.xml"
   judge cpp --junit "$RESULTS/cpp.xml"
+}
+
+# A few seconds of the file readers under sanitizers.
+run_fuzz() {
   run_logged fuzz in_time bash "$ROOT/tools/commands/fuzz.sh" --minutes 0.1 --seed 1
   judge fuzz
+}
+
+# jobs_of GROUP: prints the runners of a group of ./dev test, one a line.
+jobs_of() {
+  local renderer
+  case $1 in
+    cpp) printf '%s\n' cpp fuzz ;;
+    commands) printf '%s\n' commands report report_smoke ;;
+    export) printf '%s\n' export_diet export_pictures export_package export_android ;;
+    render)
+      for renderer in ${LOBELIGHT_RENDERERS:-mobile gl_compatibility forward_plus}; do
+        echo "render_$renderer"
+      done
+      ;;
+    *) echo "$1" ;;
+  esac
+}
+
+# The runners that take longest begin first, so that none of them is left over at the end.
+LONGEST_FIRST=(render_mobile render_forward_plus render_gl_compatibility export_pictures accuracy export_package
+  report_smoke export_android renderers commands fuzz cpp)
+
+# order_jobs JOB…: prints them, one a line.
+order_jobs() {
+  local job
+  for job in "${LONGEST_FIRST[@]}"; do
+    [[ " $* " != *" $job "* ]] || echo "$job"
+  done
+  for job in "$@"; do
+    [[ " ${LONGEST_FIRST[*]} " == *" $job "* ]] || echo "$job"
+  done
+}
+
+# prepare_tests JOB…: what these need, made once, with all cores.
+prepare_tests() {
+  local wanted=" $* "
+  need_engine
+  need_display
+  need_python
+  if [[ $wanted =~ \ (cpp|stability|crosscheck)\  ]]; then need_native_tests; else need_library; fi
+  [[ $wanted != *" fuzz "* ]] || bash "$ROOT/tools/setup/fuzz.sh"
+  need_gdunit
+  need_import
+  [[ ! $wanted =~ \ (render_[a-z_]+)\  ]] || bake_demo_tables thesis_8
+  [[ $wanted != *" export_android "* ]] || bake_demo_tables "${DEMO_SETS[@]}"
+  [[ $wanted != *" stability "* ]] || need_python stability
+  [[ $wanted != *" crosscheck "* ]] || need_python crosscheck
+  [[ ! $wanted =~ \ (report|report_smoke|commands)\  ]] || need_python report
+  # The last one is what PYTHON stays.
+  need_python accuracy
 }
 
 # The reduced set of ./dev stability.
@@ -42,12 +103,13 @@ run_stability() {
   judge stability
 }
 
-# run_suites NAME FOLDER ENGINE…: the suites of a folder; ENGINE is how the engine is called.
+# run_suites NAME FOLDER ENGINE…: the suites of a folder; ENGINE is how the engine is called. user:// is this run's own.
 run_suites() {
   local name=$1 folder=$2
   shift 2
-  rm -rf "${RESULTS:?}/$name-report"
-  run_logged "$name" "$@" -s "$GDUNIT_TOOL" --ignoreHeadlessMode -a "res://$folder" -c \
+  rm -rf "${RESULTS:?}/$name-report" "${RESULTS:?}/$name-user"
+  mkdir "$RESULTS/$name-user"
+  XDG_DATA_HOME=$RESULTS/$name-user run_logged "$name" "$@" -s "$GDUNIT_TOOL" --ignoreHeadlessMode -a "res://$folder" -c \
     -rd "res://build/test/$name-report"
   local reports=("$RESULTS/$name-report"/report_*/results.xml)
   judge "$name" --engine --junit "${reports[0]}"
@@ -94,42 +156,54 @@ run_demo() {
   run_suites demo tests/demo in_time godot_headless
 }
 
-# The rendered suites, once in each renderer.
+# The rendered suites, in one renderer each.
+run_render_mobile() { run_render mobile; }
+run_render_gl_compatibility() { run_render gl_compatibility; }
+run_render_forward_plus() { run_render forward_plus; }
+
 run_render() {
-  local renderer
-  # The demo's pictures show the thesis' method too.
-  need_import
-  bake_demo_tables thesis_8
-  for renderer in ${LOBELIGHT_RENDERERS:-mobile gl_compatibility forward_plus}; do
-    run_suites "render-$renderer" tests/render in_time godot_rendered "$renderer"
-  done
+  run_suites "render-$1" tests/render in_time godot_rendered "$1"
 }
 
 # What the commands do with wrong arguments and files.
 run_commands() {
-  # Anything set up only now would count as noise of the first command.
-  need_import
-  need_python accuracy
-  need_python report
   run_logged commands in_time bash "$ROOT/tests/commands/errors_test.sh"
   judge commands
+}
+
+# What ./dev report makes of measurements.
+run_report() {
   run_logged report in_time "$PYTHON" "$ROOT/tests/commands/report_test.py"
   judge report
+}
+
+# ./dev report from end to end, small.
+run_report_smoke() {
   run_logged report-smoke in_time "$PYTHON" "$ROOT/tests/commands/report_smoke_test.py"
   judge report-smoke
 }
 
-# What exports leave out, and that the pictures stay the same; the package, what is exported from a project that it was
-# unpacked into, and the demo's pack for Android.
-run_export() {
-  need_import
+# What exports leave out, as the editor's scripts find it.
+run_export_diet() {
   run_suites export-diet tests/diet in_time godot_headless
+}
+
+# What exports leave out, and that the pictures stay the same.
+run_export_pictures() {
   run_logged export-pictures in_time bash "$ROOT/tools/commands/diet.sh" --acceptance
   judge export-pictures
+}
+
+# The package, and what is exported from a project that it was unpacked into.
+run_export_package() {
   run_logged export-libraries in_time "$PYTHON" "$ROOT/tests/commands/package_tool_test.py"
   judge export-libraries
   run_logged export-package in_time bash "$ROOT/tests/commands/package_test.sh"
   judge export-package
+}
+
+# The demo's pack for Android.
+run_export_android() {
   run_logged export-android in_time bash "$ROOT/tools/commands/android.sh" --pack-only --out "$RESULTS/android"
   judge export-android
 }
@@ -142,7 +216,6 @@ run_crosscheck() {
 
 # What ./dev compare finds, against the project's bounds.
 run_accuracy() {
-  need_import
   run_logged accuracy in_time "$PYTHON" "$ROOT/tests/commands/accuracy_test.py"
   judge accuracy
 }

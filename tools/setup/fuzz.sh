@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Builds what ./dev fuzz runs: the file readers with sanitizers
+source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
+
+need_packages
+need_openexr
+compile() {
+  cd "$ROOT/gdextension"
+  cmake --preset release -DLOBELIGHT_DEPS_DIR="$OPENEXR_DIR"
+  cmake --build "$ROOT/build/cmake" --target lobelight_fuzz --parallel "$JOBS"
+}
+mkdir -p "$ROOT/build/fuzz"
+touch "$ROOT/build/.gdignore"
+exec {lock}>"$ROOT/build/lock"
+flock "$lock"
+step "Building the readers with sanitizers" compile
