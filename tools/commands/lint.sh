@@ -29,7 +29,7 @@ files() {
     arguments+=(-o -name "$pattern")
   done
   find . \( -name .git -o -name .godot -o -path ./build -o -path ./reports -o -path ./addons/gdUnit4 \) -prune \
-    -o -type f ! -name gdextension_interface.h \( "${arguments[@]:1}" \) -print | LC_ALL=C sort
+    -o -type f \( "${arguments[@]:1}" \) -print | LC_ALL=C sort
 }
 mapfile -t cpp < <(files '*.cpp' '*.h' '*.hpp')
 mapfile -t gdscript < <(files '*.gd')

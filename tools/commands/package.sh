@@ -28,6 +28,7 @@ tool=$ROOT/tools/package/package.py
 options=(--downloads "$CACHE/downloads")
 if [[ " $* " != *" --no-library "* ]]; then
   need_library
+  options+=(--interface "$GODOT_INTERFACE")
 fi
 if [[ " $* " == *" --all "* ]]; then
   mapfile -t targets < <("$PYTHON" "$tool" --targets)

@@ -37,10 +37,15 @@ engine_key() {
   echo "$(content_hash "$ROOT/tools/setup/engine.sh" "$ROOT/tools/lib/debian.sh") $CACHE"
 }
 
+# program_identity PROGRAM: prints what changes when the file does.
+program_identity() {
+  stat -L -c '%n %i %s %Y' -- "$1" | sha256sum | cut -c 1-16
+}
+
 # godot_is_wanted PROGRAM: remembers the answer under the file's identity, since asking an engine takes a while.
 godot_is_wanted() {
   local stamp
-  stamp=$CACHE/engine-checks/$(stat -L -c '%n %i %s %Y' -- "$1" | sha256sum | cut -c 1-16)
+  stamp=$CACHE/engine-checks/$(program_identity "$1")
   if [[ ! -f $stamp ]]; then
     [[ $(godot_version "$1") == "$GODOT_WANTED".* ]] || return 1
     write_stamp "$stamp" "$1"

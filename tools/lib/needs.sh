@@ -80,11 +80,36 @@ need_python() {
 
 # need_openexr: sets OPENEXR_DIR, where static OpenEXR and Imath are installed.
 need_openexr() {
-  OPENEXR_DIR=$CACHE/deps/openexr-$(content_hash "$ROOT/tools/setup/openexr.sh")
+  OPENEXR_DIR=$CACHE/deps/openexr-$(content_hash "$ROOT/tools/setup/openexr.sh" "$ROOT/tools/setup/openexr.txt")
   if [[ ! -f $OPENEXR_DIR/complete ]]; then
     need_python ""
     locked "$CACHE/lock/openexr" bash "$ROOT/tools/setup/openexr.sh" "$OPENEXR_DIR"
   fi
+}
+
+# need_interface: sets GODOT_INTERFACE, gdextension_interface.h of the engine that is used, in the cache.
+need_interface() {
+  local stamp
+  need_engine
+  stamp=$CACHE/interface/engine-$(program_identity "$GODOT")
+  if [[ ! -f $stamp || ! -f $(<"$stamp") ]]; then
+    locked "$CACHE/lock/interface" bash "$ROOT/tools/setup/interface.sh" "$stamp"
+  fi
+  GODOT_INTERFACE=$(<"$stamp")
+}
+
+# configure_native FOLDER OPTION…: CMake on gdextension/ in FOLDER, which is emptied first where it belongs to another
+# folder of sources, as after a clone was moved or copied. Takes OpenEXR, and the engine's interface where it was needed.
+configure_native() {
+  local build=$1 home
+  shift
+  home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$build/CMakeCache.txt" 2>/dev/null) || true
+  if [[ -n $home && $(realpath -m -- "$home") != $(realpath -m -- "$ROOT/gdextension") ]]; then
+    say "${build#"$ROOT/"} was built for $home and is built anew."
+    rm -rf "$build"
+  fi
+  cmake -S "$ROOT/gdextension" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DLOBELIGHT_DEPS_DIR="$OPENEXR_DIR" \
+    ${GODOT_INTERFACE:+"-DLOBELIGHT_GDEXTENSION_INTERFACE=$GODOT_INTERFACE"} "$@"
 }
 
 # need_cross_compiler TARGET: sets CROSS, CMake's options that build for TARGET, a system and a processor as
@@ -107,38 +132,41 @@ need_cross_compiler() {
 # need_cross TARGET: need_cross_compiler, and sets OPENEXR_DIR to OpenEXR and Imath for TARGET.
 need_cross() {
   need_cross_compiler "$1"
-  OPENEXR_DIR=$CACHE/deps/openexr-$1-$(content_hash "$ROOT/tools/setup/openexr.sh" "$ROOT/tools/setup/zig.txt" \
-    "$ROOT/gdextension/cmake/Zig.cmake")
+  OPENEXR_DIR=$CACHE/deps/openexr-$1-$(content_hash "$ROOT/tools/setup/openexr.sh" "$ROOT/tools/setup/openexr.txt" \
+    "$ROOT/tools/setup/zig.txt" "$ROOT/gdextension/cmake/Zig.cmake")
   if [[ ! -f $OPENEXR_DIR/complete ]]; then
     locked "$CACHE/lock/openexr-$1" bash "$ROOT/tools/setup/openexr.sh" "$OPENEXR_DIR" "$1"
   fi
 }
 
-# cross_key: as library_key, for what need_cross has set OPENEXR_DIR to.
+# cross_key: as library_key, for what need_cross has set OPENEXR_DIR to, after need_interface.
 cross_key() {
   echo "$(fingerprint "$ROOT/gdextension" "$ROOT/addons/lobelight/doc_classes" \
-    "$ROOT/tools/setup/cross_library.sh") $OPENEXR_DIR"
+    "$ROOT/tools/setup/cross_library.sh") $OPENEXR_DIR $GODOT_INTERFACE"
 }
 
 # need_cross_library TARGET: the native library for TARGET, in build/libraries/TARGET.
 need_cross_library() {
   need_packages
+  need_interface
   need_cross "$1"
   if ! stamp_is "$ROOT/build/libraries/$1/key" "$(cross_key)"; then
     locked "$ROOT/build/lock" bash "$ROOT/tools/setup/cross_library.sh" "$1"
   fi
 }
 
-# library_key: what the native library is built from. Changes when a source, the recipe or OpenEXR does.
+# library_key: what the native library is built from. Changes when a source, the recipe, OpenEXR or the engine's interface
+# does.
 library_key() {
   echo "$(fingerprint "$ROOT/gdextension" "$ROOT/addons/lobelight/doc_classes" \
-    "$ROOT/addons/lobelight/lobelight.gdextension" "$ROOT/tools/setup/library.sh") $OPENEXR_DIR"
+    "$ROOT/addons/lobelight/lobelight.gdextension" "$ROOT/tools/setup/library.sh") $OPENEXR_DIR ${GODOT_INTERFACE:-}"
 }
 
 # need_library: the native library, built in build/cmake and installed where lobelight.gdextension looks for it.
 need_library() {
   need_packages
   need_openexr
+  need_interface
   if ! stamp_is "$ROOT/build/library-key" "$(library_key)" || [[ ! -f $ROOT/.godot/extension_list.cfg ]] \
     || ! compgen -G "$ROOT/addons/lobelight/bin/*" >/dev/null; then
     locked "$ROOT/build/lock" bash "$ROOT/tools/setup/library.sh" lobelight_library
@@ -149,6 +177,7 @@ need_library() {
 need_native_tests() {
   need_packages
   need_openexr
+  need_interface
   if ! stamp_is "$ROOT/build/tests-key" "$(library_key)"; then
     locked "$ROOT/build/lock" bash "$ROOT/tools/setup/library.sh" all
   fi

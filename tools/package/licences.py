@@ -22,7 +22,6 @@ FROM_ZIG = [
 ]
 # GLM is a system package, of headers only.
 GLM_FILES = ["/usr/share/doc/libglm-dev/copyright", "/usr/local/share/doc/libglm-dev/copyright"]
-INTERFACE_HEADER = "gdextension/binding/include/gdextension_interface.h"
 RULE = "=" * 78
 
 
@@ -30,17 +29,18 @@ class LicenceError(Exception):
     """Says in one sentence which licence could not be found."""
 
 
-def collect(downloads, root, zig):
+def collect(downloads, root, zig, interface):
     """One text with every licence. `downloads` is the folder that holds the archives, `root` the repository, `zig` the
-    folder of the compiler that built for every desktop, or None where this machine's own did."""
+    folder of the compiler that built for every desktop, or None where this machine's own did, `interface` the engine's
+    gdextension_interface.h."""
     parts = [("Lobelight", (root / "LICENSE").read_text(encoding="utf-8"))]
     versions = dict(re.findall(r"^(\w+_VERSION)=(\S+)$", (root / SETUP).read_text(encoding="utf-8"), re.MULTILINE))
     parts += [(name, from_archive(downloads / archive.format(**versions), path)) for name, archive, path in SOURCES]
     parts.append(("GLM", first_text(GLM_FILES, "GLM")))
     if zig is not None:
         parts += [(name, read_licence(zig / path, name)) for name, path in FROM_ZIG]
-    header = (root / INTERFACE_HEADER).read_text(encoding="utf-8")
-    parts.append(("Godot Engine, its extension interface", comment_at_top(header)))
+    engine = "Godot Engine, its extension interface"
+    parts.append((engine, comment_at_top(read_licence(interface, engine))))
     blocks = [f"{RULE}\n{name}\n{RULE}\n\n{text.strip()}\n" for name, text in parts]
     return "The native library contains, and is under the licences of:\n\n" + "\n".join(blocks)
 

@@ -61,6 +61,7 @@ def read_arguments(arguments):
     parser.add_argument("--no-library", action="store_true")
     parser.add_argument("--libraries", type=pathlib.Path, default=pathlib.Path(), help="folder with one for each target")
     parser.add_argument("--zig", type=pathlib.Path, default=pathlib.Path(), help="folder of what built these")
+    parser.add_argument("--interface", type=pathlib.Path, default=pathlib.Path(), help="the engine's C interface")
     parser.add_argument("--downloads", type=pathlib.Path, default=pathlib.Path())
     parser.error = fail_with
     options = parser.parse_args(arguments)
@@ -153,7 +154,7 @@ def contents(options):
         files |= libraries
         files[EXTENSION] = extension_text(libraries)
         files[f"{EXTENSION}.uid"] = (folder / f"{EXTENSION}.uid").read_bytes()
-        files[LICENCES] = licences.collect(options.downloads, ROOT, options.zig if options.all else None).encode()
+        files[LICENCES] = licences.collect(options.downloads, ROOT, options.zig if options.all else None, options.interface).encode()
     elif not options.no_library:
         raise PackageError(f"{ADDON}/bin has no library; ./dev setup builds it, --no-library leaves it out")
     return files, list(libraries)

@@ -5,8 +5,11 @@
 # aapt2 and apksigner from Debian forky (bookworm's aapt2 crashes on these resources). Nothing of them is installed.
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 source "$ROOT/tools/lib/debian.sh"
+# shellcheck source=tools/lib/sources.sh
+source "$ROOT/tools/lib/sources.sh"
 
-GODOT_SOURCE=4.6.3+ds-2
+# Of the version of the engine's library in tools/android/artefacts.txt.
+GODOT_SOURCE=godot_4.6.3+ds.orig.tar.xz
 GODOT_SOURCE_SHA256=2c7f6b7b2566182869d3f50829b8260179137ff169c34026640f9e8f9c3c0506
 
 (($# == 1)) || die "android.sh takes the directory to put things into"
@@ -20,7 +23,7 @@ rm -rf "$work"
 mkdir -p "$work/packages"
 libraries=$target/tools/usr/lib/$(uname -m)-linux-gnu
 build_tools=$work/sdk/build-tools/debian
-private_apt "$work/apt" "deb forky" "deb-src forky"
+private_apt "$work/apt" "deb forky"
 
 fetch_tools() {
   local archive number=0 archives
@@ -39,13 +42,12 @@ fetch_tools() {
 }
 
 fetch_app() {
-  local archive
-  cd "$work/apt"
-  apt-get source --download-only --tar-only "godot=$GODOT_SOURCE"
-  archive=$(compgen -G "godot_*.orig.tar.xz")
-  sha256sum --check --status <<<"$GODOT_SOURCE_SHA256  $archive"
-  tar --extract --file "$archive" --wildcards '*/platform/android/java/app/*'
-  mv godotengine-*/platform/android/java/app "$work/app" 2>/dev/null || mv ./*/platform/android/java/app "$work/app"
+  fetch_source "$work" godot "$GODOT_SOURCE" "$GODOT_SOURCE_SHA256" forky sid trixie trixie-backports
+  mkdir "$work/source"
+  tar --extract --file "$work/$GODOT_SOURCE" --directory "$work/source" --strip-components 1 \
+    --wildcards '*/platform/android/java/app/*'
+  mv "$work/source/platform/android/java/app" "$work/app"
+  rm -rf "$work/source" "${work:?}/$GODOT_SOURCE"
 }
 
 # The folders that the engine looks for. adb is only asked for devices, and there is none.

@@ -11,7 +11,7 @@ if stamp_is "$build/lobelight-key" "$key"; then
   exit 0
 fi
 compile() {
-  cmake -G Ninja -S "$ROOT/gdextension" -B "$build" -DCMAKE_BUILD_TYPE=Release -DLOBELIGHT_DEPS_DIR="$OPENEXR_DIR"
+  configure_native "$build"
   cmake --build "$build" --parallel "$JOBS" --target lobelight_speed lobelight_curve lobelight_fit_c
 }
 mkdir -p "$build"

@@ -6,6 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 target=$1
 build=$ROOT/build/cross/$target
 libraries=$ROOT/build/libraries
+need_interface
 need_cross "$target"
 key=$(cross_key)
 if stamp_is "$libraries/$target/key" "$key"; then
@@ -13,8 +14,7 @@ if stamp_is "$libraries/$target/key" "$key"; then
 fi
 
 compile() {
-  cmake -S "$ROOT/gdextension" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release "${CROSS[@]}" \
-    -DLOBELIGHT_DEPS_DIR="$OPENEXR_DIR"
+  configure_native "$build" "${CROSS[@]}"
   cmake --build "$build" --target lobelight_library --parallel "$JOBS"
 }
 

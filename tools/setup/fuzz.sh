@@ -5,8 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 need_packages
 need_openexr
 compile() {
-  cd "$ROOT/gdextension"
-  cmake --preset release -DLOBELIGHT_DEPS_DIR="$OPENEXR_DIR"
+  configure_native "$ROOT/build/cmake"
   cmake --build "$ROOT/build/cmake" --target lobelight_fuzz --parallel "$JOBS"
 }
 mkdir -p "$ROOT/build/fuzz"

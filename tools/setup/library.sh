@@ -7,6 +7,7 @@ target=$1
 build=$ROOT/build/cmake
 extensions=$ROOT/.godot/extension_list.cfg
 need_openexr
+need_interface
 key=$(library_key)
 case $target in
   lobelight_library) stamp=$ROOT/build/library-key ;;
@@ -17,10 +18,6 @@ if stamp_is "$stamp" "$key" && [[ -f $extensions ]] && compgen -G "$ROOT/addons/
   exit 0
 fi
 
-configure() {
-  cd "$ROOT/gdextension"
-  cmake --preset release -DLOBELIGHT_DEPS_DIR="$OPENEXR_DIR"
-}
 compile() {
   cmake --build "$build" --target "$target" --parallel "$JOBS"
   cmake --install "$build" --strip
@@ -28,7 +25,7 @@ compile() {
 mkdir -p "$ROOT/build"
 touch "$ROOT/build/.gdignore"
 step --advice "If the compiler or CMake has changed, removing build/ and running this again helps." \
-  "Configuring the extension" configure
+  "Configuring the extension" configure_native "$build"
 if [[ $target == all ]]; then
   step "Building the extension and its tests" compile
 else

@@ -7,12 +7,12 @@
 # CMake's preset then hides everything.
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 source "$ROOT/tools/lib/debian.sh"
+# shellcheck source=tools/lib/sources.sh
+source "$ROOT/tools/lib/sources.sh"
 
 OPENEXR_VERSION=3.4.16
 OPENEXR_SHA256=cc59a3ec182d0644e4ce99201d8ef1efcf64b0bdfdd0d49e87036457f1726f1d
 IMATH_VERSION=3.1.12
-IMATH_REVISION=1
-IMATH_SUITE=trixie
 IMATH_SHA256=8a1bc258f3149b5729c2f4f8ffd337c0e57f09096e4ba9784329f40c4a9035da
 
 (($# == 1 || $# == 2)) || die "openexr.sh takes the directory to install into, and a system to build for"
@@ -45,21 +45,27 @@ has_checksum() {
   fi
 }
 
+# CMake, Ninja and the packages that pip runs on OpenEXR's archive, which are all pinned.
+fetch_tools() {
+  "$PYTHON" -m pip install --disable-pip-version-check --no-deps --only-binary :all: --require-hashes \
+    --target "$work/tools" --requirement "$ROOT/tools/setup/openexr.txt"
+  "$work/tools/cmake/data/bin/cmake" --version
+}
+
 fetch_openexr() {
-  need_python ""
   # pip asks the archive for its version on the way. Told so, the archive answers without running CMake, which would
   # look for Imath in the system and then on the net.
-  OPENEXR_RELEASE_CANDIDATE_TAG=v$OPENEXR_VERSION "$PYTHON" -m pip download --disable-pip-version-check --no-deps \
-    --no-binary OpenEXR --dest "$downloads" "OpenEXR==$OPENEXR_VERSION"
+  echo "OpenEXR==$OPENEXR_VERSION --hash=sha256:$OPENEXR_SHA256" >"$work/openexr.txt"
+  OPENEXR_RELEASE_CANDIDATE_TAG=v$OPENEXR_VERSION PYTHONPATH=$work/tools "$PYTHON" -m pip download \
+    --disable-pip-version-check --no-deps --no-build-isolation --no-binary OpenEXR --require-hashes \
+    --dest "$downloads" --requirement "$work/openexr.txt"
   has_checksum "$openexr_archive" "$OPENEXR_SHA256"
 }
 
+# Stable Debian has it for years; what is older or newer may have the same archive.
 fetch_imath() {
-  private_apt "$work/apt" "deb-src $IMATH_SUITE"
-  apt-get update
-  cd "$downloads"
-  apt-get source --download-only --tar-only "imath=$IMATH_VERSION-$IMATH_REVISION"
-  has_checksum "$imath_archive" "$IMATH_SHA256"
+  fetch_source "$downloads" imath "imath_$IMATH_VERSION.orig.tar.gz" "$IMATH_SHA256" \
+    trixie forky sid bookworm-backports trixie-backports
 }
 
 # build NAME ARCHIVE OPTION…: unpack, configure, build, install below $work/installed.
@@ -90,6 +96,9 @@ build_openexr() {
     -DImath_DIR="$work/installed$target/lib/cmake/Imath"
 }
 
+need_python ""
+step --advice "Is the Python package index reachable?" "Fetching CMake and Ninja (29 MB)" fetch_tools
+export PATH=$work/tools/cmake/data/bin:$work/tools/bin:$PATH
 offline="Or put that file, with SHA-256"
 has_checksum "$openexr_archive" "$OPENEXR_SHA256" \
   || step --advice "$offline $OPENEXR_SHA256, at $openexr_archive." "Fetching the source of OpenEXR $OPENEXR_VERSION" \

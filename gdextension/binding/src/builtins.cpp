@@ -27,27 +27,23 @@ CharString String::utf8() const {
   return CharString(std::move(text));
 }
 
-std::int64_t Array::size() const {
-  return call<std::int64_t>(GODOT_SUBSET_METHOD("size", 3173160232));
-}
+std::int64_t Array::size() const { return call<std::int64_t>(engine.array_size); }
 
 void Array::append(const Variant& value) {
-  call<std::int64_t>(GODOT_SUBSET_METHOD("append", 3316032543), value);  // returns nothing
+  call<std::int64_t>(engine.array_append, value);  // returns nothing
 }
 
 const Variant& Array::operator[](std::int64_t index) const {
   return *static_cast<const Variant*>(engine.array_operator_index_const(_native_ptr(), index));
 }
 
-std::int64_t Dictionary::size() const {
-  return call<std::int64_t>(GODOT_SUBSET_METHOD("size", 3173160232));
-}
+std::int64_t Dictionary::size() const { return call<std::int64_t>(engine.dictionary_size); }
 
 bool Dictionary::has(const Variant& key) const {
-  return call<GDExtensionBool>(GODOT_SUBSET_METHOD("has", 3680194679), key) != 0;
+  return call<GDExtensionBool>(engine.dictionary_has, key) != 0;
 }
 
-Array Dictionary::keys() const { return call<Array>(GODOT_SUBSET_METHOD("keys", 4144163970)); }
+Array Dictionary::keys() const { return call<Array>(engine.dictionary_keys); }
 
 const Variant& Dictionary::operator[](const Variant& key) const {
   return *static_cast<const Variant*>(
@@ -59,18 +55,14 @@ Variant& Dictionary::operator[](const Variant& key) {
 }
 
 Callable::Callable(Object* object, const StringName& method) : Builtin(Uninitialised()) {
-  // The engine's third constructor: (Object, StringName).
-  static const GDExtensionPtrConstructor construct =
-      engine.variant_get_ptr_constructor(VARIANT_TYPE, 2);
   const GDExtensionConstTypePtr arguments[] = {&object->_owner, method._native_ptr()};
-  construct(_native_ptr(), arguments);
+  engine.callable_of_method(_native_ptr(), arguments);
 }
 
 void Callable::call_deferred_with(const Variant* arguments, std::size_t count) const {
-  const GDExtensionPtrBuiltInMethod method = GODOT_SUBSET_METHOD("call_deferred", 3286317445);
   std::vector<GDExtensionConstTypePtr> pointers;
   for (std::size_t i = 0; i < count; ++i) pointers.push_back(arguments[i]._native_ptr());
-  if (method != nullptr) method(_native_ptr(), pointers.data(), nullptr, static_cast<int>(count));
+  engine.callable_call_deferred(_native_ptr(), pointers.data(), nullptr, static_cast<int>(count));
 }
 
 }  // namespace godot

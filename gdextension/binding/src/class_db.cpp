@@ -51,12 +51,10 @@ void ClassDB::set_instance(GDExtensionObjectPtr owner, const char* class_name,
 // By pointer call, not through a Variant: the object has no reference yet, and a Variant would take
 // the first one and free the object with it.
 void ClassDB::notify_postinitialize(GDExtensionObjectPtr owner) {
-  static const GDExtensionMethodBindPtr method =
-      subset::find_method("Object", "notification", 4023243586);
   const std::int64_t postinitialize = 0;
   const GDExtensionBool reversed = 0;
   const GDExtensionConstTypePtr arguments[] = {&postinitialize, &reversed};
-  if (method != nullptr) engine.object_method_bind_ptrcall(method, owner, arguments, nullptr);
+  engine.object_method_bind_ptrcall(engine.object_notification, owner, arguments, nullptr);
 }
 
 void ClassDB::register_class_with(const char* name, const char* parent,

@@ -6,12 +6,13 @@ void MethodBind::call(void* instance, const Variant* const* values, std::int64_t
                       Variant& result, GDExtensionCallError& error) const {
   const auto wanted = static_cast<std::int32_t>(arguments.size());
   const auto needed = wanted - static_cast<std::int32_t>(defaults.size());
+  // Too few of them, too, are told the number of all, as the engine's own methods do.
   if (count > wanted) {
-    error = {GDEXTENSION_CALL_ERROR_TOO_MANY_ARGUMENTS, wanted, wanted};
+    error = {GDEXTENSION_CALL_ERROR_TOO_MANY_ARGUMENTS, 0, wanted};
     return;
   }
   if (count < needed) {
-    error = {GDEXTENSION_CALL_ERROR_TOO_FEW_ARGUMENTS, needed, needed};
+    error = {GDEXTENSION_CALL_ERROR_TOO_FEW_ARGUMENTS, 0, wanted};
     return;
   }
   std::vector<const Variant*> complete;

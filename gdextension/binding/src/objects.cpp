@@ -18,12 +18,10 @@ std::vector<GDExtensionConstVariantPtr> pointers_to(const Variant* values, std::
 }  // namespace
 
 void Object::emit_signal_with(const Variant* arguments, std::size_t count) {
-  static const GDExtensionMethodBindPtr method =
-      subset::find_method("Object", "emit_signal", 4047867050);
-  if (method == nullptr) return;
   Variant result;
   GDExtensionCallError error{};
-  engine.object_method_bind_call(method, _owner, pointers_to(arguments, count).data(),
+  engine.object_method_bind_call(engine.object_emit_signal, _owner,
+                                 pointers_to(arguments, count).data(),
                                  static_cast<GDExtensionInt>(count), result._native_ptr(), &error);
 }
 
@@ -34,21 +32,15 @@ ProjectSettings* ProjectSettings::get_singleton() {
 }
 
 String ProjectSettings::globalize_path(const String& path) const {
-  static const GDExtensionMethodBindPtr method =
-      subset::find_method("ProjectSettings", "globalize_path", 3135753539);
   String result;
   const GDExtensionConstTypePtr arguments[] = {path._native_ptr()};
-  if (method != nullptr) {
-    engine.object_method_bind_ptrcall(method, _owner, arguments, result._native_ptr());
-  }
+  engine.object_method_bind_ptrcall(engine.project_settings_globalize_path, _owner, arguments,
+                                    result._native_ptr());
   return result;
 }
 
 void UtilityFunctions::push_error_with(const Variant* arguments, std::size_t count) {
-  static const GDExtensionPtrUtilityFunction function =
-      subset::find_utility_function("push_error", 2648703342);
-  if (function == nullptr) return;
-  function(nullptr, pointers_to(arguments, count).data(), static_cast<int>(count));
+  engine.push_error(nullptr, pointers_to(arguments, count).data(), static_cast<int>(count));
 }
 
 }  // namespace godot

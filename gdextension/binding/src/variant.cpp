@@ -7,11 +7,10 @@ namespace {
 
 using subset::engine;
 
-// The engine's conversions between Variant and one type; looked up once for each type in use.
+// The engine's conversions between Variant and one type.
 template <GDExtensionVariantType TYPE>
 void write_variant(void* variant, const void* value) {
-  static const auto convert = engine.get_variant_from_type_constructor(TYPE);
-  convert(variant, const_cast<void*>(value));
+  engine.types[TYPE].to_variant(variant, const_cast<void*>(value));
 }
 
 // `T` is the engine's representation of the type.
@@ -19,10 +18,9 @@ template <GDExtensionVariantType TYPE, class T>
 T read_variant(void* variant) {
   T value{};
   if (engine.variant_can_convert_strict(engine.variant_get_type(variant), TYPE) == 0) return value;
-  static const auto convert = engine.get_variant_to_type_constructor(TYPE);
   // It constructs the value in place: what stands there has to go first.
   value.~T();
-  convert(&value, variant);
+  engine.types[TYPE].from_variant(&value, variant);
   return value;
 }
 

@@ -7,34 +7,16 @@
 
 namespace godot::subset {
 
-struct BuiltinFunctions {
-  GDExtensionPtrConstructor construct;
-  GDExtensionPtrConstructor construct_copy;
-  GDExtensionPtrDestructor destroy;
-
-  explicit BuiltinFunctions(GDExtensionVariantType type)
-      // The engine's order for every one of these types: 0 is the default, 1 the copy.
-      : construct(engine.variant_get_ptr_constructor(type, 0)),
-        construct_copy(engine.variant_get_ptr_constructor(type, 1)),
-        destroy(engine.variant_get_ptr_destructor(type)) {}
-};
-
-template <GDExtensionVariantType TYPE>
-const BuiltinFunctions& builtin_functions() {
-  static const BuiltinFunctions functions(TYPE);
-  return functions;
-}
-
 // Base of the opaque types; SIZE in bytes as extension_api.json gives it for 64-bit builds.
 template <GDExtensionVariantType TYPE, std::size_t SIZE>
 class Builtin {
  public:
   static constexpr GDExtensionVariantType VARIANT_TYPE = TYPE;
 
-  Builtin() { builtin_functions<TYPE>().construct(opaque_, nullptr); }
+  Builtin() { engine.types[TYPE].construct(opaque_, nullptr); }
   Builtin(const Builtin& other) {
     const GDExtensionConstTypePtr arguments[] = {other.opaque_};
-    builtin_functions<TYPE>().construct_copy(opaque_, arguments);
+    engine.types[TYPE].construct_copy(opaque_, arguments);
   }
   Builtin(Builtin&& other) noexcept : Builtin() { swap(other); }
   Builtin& operator=(const Builtin& other) {
@@ -46,7 +28,7 @@ class Builtin {
     swap(other);
     return *this;
   }
-  ~Builtin() { builtin_functions<TYPE>().destroy(opaque_); }
+  ~Builtin() { engine.types[TYPE].destroy(opaque_); }
 
   void* _native_ptr() const { return opaque_; }
 
@@ -61,7 +43,7 @@ class Builtin {
   Result call(GDExtensionPtrBuiltInMethod method, const Arguments&... arguments) const {
     const GDExtensionConstTypePtr pointers[] = {static_cast<const void*>(&arguments)..., nullptr};
     Result result{};
-    if (method != nullptr) method(opaque_, pointers, &result, sizeof...(Arguments));
+    method(opaque_, pointers, &result, sizeof...(Arguments));
     return result;
   }
 
@@ -79,11 +61,3 @@ class Builtin {
 };
 
 }  // namespace godot::subset
-
-// A method of the enclosing builtin type, looked up once for each place that names it.
-#define GODOT_SUBSET_METHOD(name, hash)                                 \
-  ([]() {                                                               \
-    static const GDExtensionPtrBuiltInMethod method =                   \
-        ::godot::subset::find_builtin_method(VARIANT_TYPE, name, hash); \
-    return method;                                                      \
-  }())

@@ -1,4 +1,4 @@
-// The engine's C functions that this binding calls, looked up by name once when the library loads.
+// What this binding calls of the engine, all of it looked up once when the library loads.
 #pragma once
 
 #include <gdextension_interface.h>
@@ -47,26 +47,104 @@ namespace godot::subset {
   X(ClassdbRegisterExtensionClassSignal, classdb_register_extension_class_signal)    \
   X(ClassdbUnregisterExtensionClass, classdb_unregister_extension_class)
 
+// Methods of builtin types: the member of Interface that holds it, the type, the method's name and
+// the hash of its signature. extension_api.json lists names and hashes, here and below.
+#define GODOT_SUBSET_BUILTIN_METHODS(X)                                \
+  X(array_size, ARRAY, size, 3173160232)                               \
+  X(array_append, ARRAY, append, 3316032543)                           \
+  X(dictionary_size, DICTIONARY, size, 3173160232)                     \
+  X(dictionary_has, DICTIONARY, has, 3680194679)                       \
+  X(dictionary_keys, DICTIONARY, keys, 4144163970)                     \
+  X(callable_call_deferred, CALLABLE, call_deferred, 3286317445)       \
+  X(packed_byte_array_size, PACKED_BYTE_ARRAY, size, 3173160232)       \
+  X(packed_byte_array_resize, PACKED_BYTE_ARRAY, resize, 848867239)    \
+  X(packed_int32_array_size, PACKED_INT32_ARRAY, size, 3173160232)     \
+  X(packed_int32_array_resize, PACKED_INT32_ARRAY, resize, 848867239)  \
+  X(packed_float32_array_size, PACKED_FLOAT32_ARRAY, size, 3173160232) \
+  X(packed_float32_array_resize, PACKED_FLOAT32_ARRAY, resize, 848867239)
+
+// Functions of the global scope: the name, which is the member's too, and the hash.
+#define GODOT_SUBSET_UTILITY_FUNCTIONS(X) X(push_error, 2648703342)
+
+// Methods of classes: the member of Interface that holds it, class, name and hash.
+#define GODOT_SUBSET_CLASS_METHODS(X)                      \
+  X(object_notification, Object, notification, 4023243586) \
+  X(object_emit_signal, Object, emit_signal, 4047867050)   \
+  X(project_settings_globalize_path, ProjectSettings, globalize_path, 3135753539)
+
+// Builtin types whose layout belongs to the engine: they are constructed, copied and destroyed by
+// it.
+#define GODOT_SUBSET_OPAQUE_TYPES(X)      \
+  X(STRING, String)                       \
+  X(STRING_NAME, StringName)              \
+  X(CALLABLE, Callable)                   \
+  X(DICTIONARY, Dictionary)               \
+  X(ARRAY, Array)                         \
+  X(PACKED_BYTE_ARRAY, PackedByteArray)   \
+  X(PACKED_INT32_ARRAY, PackedInt32Array) \
+  X(PACKED_FLOAT32_ARRAY, PackedFloat32Array)
+
+// Builtin types that go into a Variant and come out of one.
+#define GODOT_SUBSET_VARIANT_TYPES(X)     \
+  X(BOOL, bool)                           \
+  X(INT, int)                             \
+  X(FLOAT, float)                         \
+  X(STRING, String)                       \
+  X(VECTOR2, Vector2)                     \
+  X(VECTOR2I, Vector2i)                   \
+  X(VECTOR3, Vector3)                     \
+  X(STRING_NAME, StringName)              \
+  X(DICTIONARY, Dictionary)               \
+  X(ARRAY, Array)                         \
+  X(PACKED_BYTE_ARRAY, PackedByteArray)   \
+  X(PACKED_INT32_ARRAY, PackedInt32Array) \
+  X(PACKED_FLOAT32_ARRAY, PackedFloat32Array)
+
+// The engine's functions for one builtin type; null where the lists above do not ask for them.
+struct TypeFunctions {
+  GDExtensionPtrConstructor construct = nullptr;
+  GDExtensionPtrConstructor construct_copy = nullptr;
+  GDExtensionPtrDestructor destroy = nullptr;
+  GDExtensionVariantFromTypeConstructorFunc to_variant = nullptr;
+  GDExtensionTypeFromVariantConstructorFunc from_variant = nullptr;
+};
+
 struct Interface {
 #define GODOT_SUBSET_DECLARE(type, name) GDExtensionInterface##type name = nullptr;
   GODOT_SUBSET_INTERFACE(GODOT_SUBSET_DECLARE)
 #undef GODOT_SUBSET_DECLARE
 
+#define GODOT_SUBSET_DECLARE(member, type, name, hash) GDExtensionPtrBuiltInMethod member = nullptr;
+  GODOT_SUBSET_BUILTIN_METHODS(GODOT_SUBSET_DECLARE)
+#undef GODOT_SUBSET_DECLARE
+
+#define GODOT_SUBSET_DECLARE(name, hash) GDExtensionPtrUtilityFunction name = nullptr;
+  GODOT_SUBSET_UTILITY_FUNCTIONS(GODOT_SUBSET_DECLARE)
+#undef GODOT_SUBSET_DECLARE
+
+#define GODOT_SUBSET_DECLARE(member, class_name, name, hash) \
+  GDExtensionMethodBindPtr member = nullptr;
+  GODOT_SUBSET_CLASS_METHODS(GODOT_SUBSET_DECLARE)
+#undef GODOT_SUBSET_DECLARE
+
+  // By GDExtensionVariantType.
+  TypeFunctions types[GDEXTENSION_VARIANT_TYPE_VARIANT_MAX];
+  // Callable(object, method).
+  GDExtensionPtrConstructor callable_of_method = nullptr;
+
   // This library, as the engine's class functions want to be told.
   GDExtensionClassLibraryPtr library = nullptr;
 
-  // False, with a line on stderr that names it, where the engine lacks one of the functions.
+  // False where the engine lacks any of these, each of which is then named in an error.
   bool load(GDExtensionInterfaceGetProcAddress get_proc_address, GDExtensionClassLibraryPtr owner);
+
+ private:
+  bool load_functions(GDExtensionInterfaceGetProcAddress get_proc_address);
+  bool load_types();
+  bool load_methods();
 };
 
 // Filled by GDExtensionBinding::InitObject::init(); nothing here works before that.
 extern Interface engine;
-
-// Look-ups by name and signature hash (extension_api.json lists both). The engine's answer does not
-// change: keep it. Null, with an error printed, where this engine has no such method.
-GDExtensionPtrBuiltInMethod find_builtin_method(GDExtensionVariantType type, const char* name,
-                                                GDExtensionInt hash);
-GDExtensionPtrUtilityFunction find_utility_function(const char* name, GDExtensionInt hash);
-GDExtensionMethodBindPtr find_method(const char* class_name, const char* name, GDExtensionInt hash);
 
 }  // namespace godot::subset

@@ -6,21 +6,19 @@
 
 namespace godot::subset {
 
-// READ and WRITE are the engine's functions for a pointer to one element.
-template <GDExtensionVariantType TYPE, class Element, auto Interface::*READ, auto Interface::*WRITE>
+// READ and WRITE are the engine's functions for a pointer to one element, SIZE and RESIZE the
+// type's methods of these names.
+template <GDExtensionVariantType TYPE, class Element, auto Interface::*READ, auto Interface::*WRITE,
+          auto Interface::*SIZE, auto Interface::*RESIZE>
 class PackedArray : public Builtin<TYPE, 16> {
  public:
-  using Builtin<TYPE, 16>::VARIANT_TYPE;
-
   // A call into the engine: keep it out of loop conditions.
-  std::int64_t size() const {
-    return this->template call<std::int64_t>(GODOT_SUBSET_METHOD("size", 3173160232));
-  }
+  std::int64_t size() const { return this->template call<std::int64_t>(engine.*SIZE); }
   bool is_empty() const { return size() == 0; }
 
   // Gives the engine's Error code, 0 = OK.
   std::int64_t resize(std::int64_t new_size) {
-    return this->template call<std::int64_t>(GODOT_SUBSET_METHOD("resize", 848867239), new_size);
+    return this->template call<std::int64_t>(engine.*RESIZE, new_size);
   }
 
   // size() elements; null when there are none. Valid until the array changes or goes.
