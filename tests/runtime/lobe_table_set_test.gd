@@ -1,6 +1,8 @@
 extends GdUnitTestSuite
 ## LobeTableSet: its layout, the interpolation over the widths, and its files, without the library.
 
+const WidthsTexture := preload("res://addons/lobelight/runtime/widths_texture.gd")
+
 const WIDTHS: Array[float] = [0.1, 0.2, 0.4]
 const VIEWS := Vector2i(3, 4)
 const LOBES := 2
@@ -38,6 +40,18 @@ func _make_set() -> LobeTableSet:
 	tables.lobe_count = LOBES
 	tables.views = VIEWS
 	tables.image = image
+	return tables
+
+
+# With one lobe and the smallest grid.
+func _make_set_of(count: int) -> LobeTableSet:
+	var tables := LobeTableSet.new()
+	tables.lobe_count = 1
+	tables.views = Vector2i(2, 2)
+	for i in count:
+		tables.widths.append(0.01 * pow(1.2, i))
+	var rows := 2 * tables.get_pair_count() + count
+	tables.image = Image.create_empty(2, rows, false, Image.FORMAT_RGBAH)
 	return tables
 
 
@@ -145,6 +159,26 @@ func test_bad_widths_are_refused() -> void:
 			"LobeTableSet.table_at: alpha must be positive, not %s." % alpha
 		)
 		assert_object(made[0]).is_null()
+
+
+func test_3d_textures_of_too_many_layers_are_refused() -> void:
+	# Of 22 widths there are 253 pairs, of 23 there are 276.
+	for count: int in [22, 23]:
+		var tables := _make_set_of(count)
+		assert_str(tables.get_problem()).is_empty()
+		assert_str(WidthsTexture.find_problem(tables, true)).is_empty()
+		var problem := WidthsTexture.find_problem(tables, false)
+		var material := LobeMaterial3D.new()
+		material.table_set = tables
+		material.roughness_texture = ImageTexture.new()
+		for anisotropy: float in [0.0, 0.5]:
+			material.anisotropy = anisotropy
+			var per_pixel := "WIDTHS_PER_PIXEL" in material.get_shader_code()
+			assert_bool(per_pixel).is_equal(anisotropy == 0.0 or count == 22)
+		if count == 22:
+			assert_str(problem).is_empty()
+		else:
+			assert_str(problem).contains("23 widths make 276").contains("256 layers")
 
 
 func test_files_give_back_the_set() -> void:

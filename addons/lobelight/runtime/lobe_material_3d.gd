@@ -203,8 +203,9 @@ static var _variants_mutex := Mutex.new()
 		_queue_update()
 ## A factor of [member roughness]. With it, tables are looked up for each pixel: as many fetches as
 ## without where [member anisotropy] is 0, otherwise twice as many. The widths of [member table_set]
-## must grow by equal factors for it, as those of the ready sets do; otherwise it is for the
-## engine's own lights only.
+## must grow by equal factors for it, as those of the ready sets do, and with anisotropy there may
+## be 22 of them, since 3D textures have 256 layers; otherwise it is for the engine's own lights
+## only.
 @export var roughness_texture: Texture2D:
 	set(value):
 		roughness_texture = value

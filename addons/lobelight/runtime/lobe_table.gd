@@ -63,6 +63,8 @@ const MAX_LOBES := 32
 		_invalidate()
 
 var _texture: ImageTexture
+# Loader threads share tables.
+var _mutex := Mutex.new()
 
 
 ## A table from a result of [LobeBaker]; [code]null[/code], and an error, if it is none.
@@ -162,11 +164,15 @@ func has_second_texels() -> bool:
 	return image != null and image.get_height() == 2 * views.y * lobe_count
 
 
-## The lobes as the shader's texture; [code]null[/code] while the table is incomplete.
+## The lobes as the shader's texture, one for all who ask, on whatever thread; [code]null[/code]
+## while the table is incomplete.
 func get_texture() -> Texture2D:
+	_mutex.lock()
 	if _texture == null and get_problem().is_empty():
 		_texture = ImageTexture.create_from_image(image)
-	return _texture
+	var texture := _texture
+	_mutex.unlock()
+	return texture
 
 
 ## (scale, offset) from a view's column, in [0, 1], to the texture's u, then from its azimuth in
@@ -288,5 +294,7 @@ func _interpolate(lobe: int, column: float, row: float) -> Color:
 
 
 func _invalidate() -> void:
+	_mutex.lock()
 	_texture = null
+	_mutex.unlock()
 	emit_changed()

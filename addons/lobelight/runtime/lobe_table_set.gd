@@ -85,10 +85,13 @@ static func from_baked(result: Dictionary) -> LobeTableSet:
 
 ## What keeps the set from being used, in a sentence; empty if nothing does.
 func get_problem() -> String:
+	_mutex.lock()
 	if not _is_checked:
 		_problem = _find_problem()
 		_is_checked = true
-	return _problem
+	var problem := _problem
+	_mutex.unlock()
+	return problem
 
 
 func _find_problem() -> String:
@@ -105,9 +108,15 @@ func _find_problem() -> String:
 	return problem
 
 
+## How many anisotropic tables the set holds.
+func get_pair_count() -> int:
+	@warning_ignore("integer_division")
+	return widths.size() * (widths.size() + 1) / 2
+
+
 ## How many tables the set holds.
 func get_table_count() -> int:
-	return _pair_count() + widths.size()
+	return get_pair_count() + widths.size()
 
 
 ## The bytes of one table's texels, tables being counted as [member image] has them.
@@ -189,7 +198,7 @@ func get_widths_texture(isotropic: bool) -> WidthsTexture:
 
 ## The isotropic table of one of [member widths], counted from 0.
 func get_isotropic_image(width: int) -> Image:
-	return _get_table_image(_pair_count() + width)
+	return _get_table_image(get_pair_count() + width)
 
 
 ## The anisotropic table of two of [member widths], counted from 0, the first not the smaller.
@@ -231,11 +240,6 @@ func _get_image_problem() -> String:
 	return ""
 
 
-func _pair_count() -> int:
-	@warning_ignore("integer_division")
-	return widths.size() * (widths.size() + 1) / 2
-
-
 # The number of the anisotropic table of two of the widths, x ≥ y.
 func _pair(x: int, y: int) -> int:
 	@warning_ignore("integer_division")
@@ -244,7 +248,7 @@ func _pair(x: int, y: int) -> int:
 
 # The first row of a table in the image.
 func _row(table: int) -> int:
-	var pairs := mini(table, _pair_count())
+	var pairs := mini(table, get_pair_count())
 	return lobe_count * (pairs * views.y + (table - pairs))
 
 
@@ -260,7 +264,7 @@ func _level(width: float) -> float:
 func _isotropic_shares(width: float) -> Dictionary[int, float]:
 	var level := _level(width)
 	var low := mini(floori(level), widths.size() - 2)
-	var first := _pair_count() + low
+	var first := get_pair_count() + low
 	return {first: 1.0 - (level - low), first + 1: level - low}
 
 

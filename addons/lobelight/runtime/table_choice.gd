@@ -39,7 +39,7 @@ func choose(material: LobeMaterial3D) -> void:
 	rotation = material.anisotropy_rotation
 	table = null
 	widths_texture = null
-	var tables := _get_set(material)
+	var tables := get_set(material)
 	is_from_set = material.table == null and tables != null
 	if is_from_set:
 		_choose_from(tables, material)
@@ -59,7 +59,7 @@ func _choose_from(tables: LobeTableSet, material: LobeMaterial3D) -> void:
 		rotation += 0.5 * PI
 	lobe_count = tables.lobe_count
 	is_isotropic = anisotropy == 0.0
-	if varies(material) and WidthsTexture.get_problem(tables).is_empty():
+	if varies(material) and WidthsTexture.find_problem(tables, is_isotropic).is_empty():
 		widths_texture = tables.get_widths_texture(is_isotropic)
 	else:
 		table = tables.shared_table_at(Widths.from_roughness(roughness, anisotropy))
@@ -90,13 +90,21 @@ static func varies(material: LobeMaterial3D) -> bool:
 	return material.anisotropy != 0.0 and flowmap != null and flowmap.has_alpha()
 
 
-static func _get_set(material: LobeMaterial3D) -> LobeTableSet:
+## The set that a material's lobes, or its coat's, come from; null if it has a table of its own and
+## no coat, or there is none.
+static func get_set(material: LobeMaterial3D) -> LobeTableSet:
 	if material.table_set != null:
 		return material.table_set if material.table_set.get_problem().is_empty() else null
 	if material.table != null and material.clearcoat <= 0.0:
 		return null
 	_mutex.lock()
-	if _default_set == null and ResourceLoader.exists(DEFAULT_SET):
-		_default_set = load(DEFAULT_SET)
+	var found := _default_set
 	_mutex.unlock()
-	return _default_set
+	# Not under the lock: who loads may wait for other threads, and these for the lock. The loader
+	# gives all of them the same set.
+	if found == null and ResourceLoader.exists(DEFAULT_SET):
+		found = load(DEFAULT_SET)
+		_mutex.lock()
+		_default_set = found
+		_mutex.unlock()
+	return found

@@ -10,6 +10,8 @@ extends RefCounted
 ## The widths must grow by equal factors for the shader to find them; by how much their logarithms
 ## may be off.
 const TOLERANCE := 1e-3
+## The layers that 3D textures have on every device (OpenGL ES 3.0, table 6.28; Vulkan 1.0, 31.1).
+const MAX_LAYERS := 256
 
 var texture: Texture
 ## As [method LobeTable.get_lookup]; for isotropic tables, from a width's number to v.
@@ -31,14 +33,20 @@ static func make(tables: LobeTableSet, isotropic: bool) -> RefCounted:
 	return result
 
 
-## Why a set cannot be looked up pixel by pixel, in a sentence; empty if it can.
-static func get_problem(tables: LobeTableSet) -> String:
+## Why a set's isotropic or anisotropic tables cannot be looked up pixel by pixel, in a sentence;
+## empty if they can.
+static func find_problem(tables: LobeTableSet, isotropic: bool) -> String:
 	var widths := tables.widths
 	var last := widths.size() - 1
 	var step := log(widths[last] / widths[0]) / last
 	for i in widths.size():
 		if absf(log(widths[i] / widths[0]) - step * i) > TOLERANCE:
 			return "The set's widths do not grow by equal factors."
+	if not isotropic and tables.get_pair_count() > MAX_LAYERS:
+		return (
+			"The set's %d widths make %d anisotropic tables, but a 3D texture has %d layers at most."
+			% [widths.size(), tables.get_pair_count(), MAX_LAYERS]
+		)
 	return ""
 
 

@@ -3,6 +3,8 @@ extends Object
 ## What keeps a scene from looking as it could, each in a sentence or two that say what to do.
 
 const EnvironmentWarnings := preload("../../runtime/environment_warnings.gd")
+const TableChoice := preload("../../runtime/table_choice.gd")
+const WidthsTexture := preload("../../runtime/widths_texture.gd")
 const SceneUsage := preload("../menu/scene_usage.gd")
 
 
@@ -47,6 +49,12 @@ static func _of_properties(material: LobeMaterial3D) -> PackedStringArray:
 		warnings.append("The material's table has no lobes yet: open it and press Bake.")
 	if material.table_set != null and not material.table_set.get_problem().is_empty():
 		warnings.append("The material's set of tables cannot be used: choose one of the addon's.")
+	elif material.table == null and TableChoice.varies(material):
+		var tables := TableChoice.get_set(material)
+		var is_isotropic := material.anisotropy == 0.0
+		var problem := "" if tables == null else WidthsTexture.find_problem(tables, is_isotropic)
+		if problem:
+			warnings.append("Its textures do not change its lobes: " + problem)
 	if (
 		EnvironmentWarnings.is_compatibility()
 		and material.transparency == LobeMaterial3D.Transparency.ALPHA_HASH

@@ -1,0 +1,93 @@
+extends GdUnitTestSuite
+## What several loader threads share: each has the same object, and none keeps the others waiting.
+
+const TableChoice := preload("res://addons/lobelight/runtime/table_choice.gd")
+const THREADS := 4
+const TABLES := 8000
+
+# Threads that have come to the start.
+var _waiting := 0
+var _mutex := Mutex.new()
+
+
+# Looks, in every load of the ready set, whether others could enter meanwhile.
+class Watch:
+	extends ResourceFormatLoader
+	var loads := 0
+	var could_enter := false
+
+	func _recognize_path(path: String, _type: StringName) -> bool:
+		return path == TableChoice.DEFAULT_SET
+
+	func _exists(_path: String) -> bool:
+		return true
+
+	func _handles_type(_type: StringName) -> bool:
+		return true
+
+	func _get_resource_type(_path: String) -> String:
+		return "Resource"
+
+	func _load(_path: String, _original: String, _threads: bool, _mode: int) -> Variant:
+		loads += 1
+		var thread := Thread.new()
+		thread.start(_try_to_enter)
+		could_enter = thread.wait_to_finish()
+		return LobeTableSet.new()
+
+	static func _try_to_enter() -> bool:
+		if not TableChoice._mutex.try_lock():
+			return false
+		TableChoice._mutex.unlock()
+		return true
+
+
+func test_a_table_has_one_texture_for_all_threads() -> void:
+	var tables: Array[LobeTable] = []
+	for i in TABLES:
+		tables.append(LobeTable.make_single_lobe(0.1 + 1e-4 * i))
+	var textures: Array[Array] = []
+	var task := func(index: int) -> void: _ask_all(tables, textures[index])
+	for i in THREADS:
+		textures.append([])
+	var threads: Array[Thread] = []
+	for i in THREADS:
+		threads.append(Thread.new())
+		threads[i].start(task.bind(i))
+	for thread in threads:
+		thread.wait_to_finish()
+	var differing := 0
+	for i in TABLES:
+		for other in range(1, THREADS):
+			differing += int(textures[other][i] != textures[0][i])
+	assert_int(differing).is_equal(0)
+
+
+func test_nobody_waits_while_the_ready_set_is_loaded() -> void:
+	var before: LobeTableSet = TableChoice._default_set
+	var cached: Resource = null
+	if ResourceLoader.has_cached(TableChoice.DEFAULT_SET):
+		cached = load(TableChoice.DEFAULT_SET)
+		cached.resource_path = ""
+	TableChoice._default_set = null
+	var watch := Watch.new()
+	ResourceLoader.add_resource_format_loader(watch, true)
+	var found := TableChoice.get_set(LobeMaterial3D.new())
+	ResourceLoader.remove_resource_format_loader(watch)
+	TableChoice._default_set = before
+	if cached != null:
+		found.resource_path = ""
+		cached.take_over_path(TableChoice.DEFAULT_SET)
+	assert_int(watch.loads).is_equal(1)
+	assert_bool(watch.could_enter).is_true()
+
+
+# All threads at the same time.
+func _ask_all(tables: Array[LobeTable], textures: Array) -> void:
+	_mutex.lock()
+	_waiting += 1
+	_mutex.unlock()
+	while _waiting < THREADS:
+		pass
+	for table in tables:
+		textures.append(table.get_texture())
