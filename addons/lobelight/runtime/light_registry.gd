@@ -17,6 +17,8 @@ static var _lights: Dictionary[int, EnvironmentLight] = {}
 # Made when the first material comes, dropped with the last one.
 static var _neutral: EnvironmentLight
 static var _has_stretched_levels := false
+# Whether what is kept here is dropped when the game ends.
+static var _is_watched := false
 
 
 ## Whether shaders need LOBELIGHT_STRETCHED_LEVELS for the current light.
@@ -28,6 +30,7 @@ static func has_stretched_levels() -> bool:
 ## [method has_stretched_levels] has changed.
 static func add_material(material: RID, other_variant: Callable) -> void:
 	_mutex.lock()
+	_watch()
 	_materials[material] = other_variant
 	_current().apply(material)
 	_mutex.unlock()
@@ -45,6 +48,7 @@ static func remove_material(material: RID) -> void:
 ## Whether there are offers of others.
 static func offer(owner: int, light: EnvironmentLight) -> bool:
 	_mutex.lock()
+	_watch()
 	_lights[owner] = light
 	var has_others := _lights.size() > 1
 	_apply_to_all()
@@ -69,6 +73,25 @@ static func withdraw(owner: int) -> void:
 	_mutex.unlock()
 
 
+# What scripts keep in static variables outlives the tree, and a lambda whose object dies after
+# that ends the engine by a signal (Godot 4.6). Nodes take connections on the main thread only.
+static func _watch() -> void:
+	var tree := Engine.get_main_loop() as SceneTree
+	if _is_watched or tree == null or OS.get_thread_caller_id() != OS.get_main_thread_id():
+		return
+	tree.root.tree_exiting.connect(_forget)
+	_is_watched = true
+
+
+static func _forget() -> void:
+	_mutex.lock()
+	_is_watched = false
+	_materials.clear()
+	_lights.clear()
+	_neutral = null
+	_mutex.unlock()
+
+
 static func _current() -> EnvironmentLight:
 	if not _lights.is_empty():
 		return _lights.values().back()
@@ -86,5 +109,6 @@ static func _apply_to_all() -> void:
 	_has_stretched_levels = not light.is_even
 	for material: RID in _materials:
 		light.apply(material)
-		if has_changed:
+		# The object may have gone without having said so.
+		if has_changed and _materials[material].is_valid():
 			_materials[material].call_deferred()
