@@ -5,8 +5,10 @@ extends "pyramid_cube.gd"
 const CanvasPass := preload("canvas_pass.gd")
 const OwnedCubemap := preload("owned_cubemap.gd")
 
-# Bound to what it copies; made once.
+# Bound to what it copies and to the outcome; made once.
 var _copy: Callable
+# The errors of the last copy, which with a render thread of its own is that of the update before.
+var _outcome: Array[Error] = [OK]
 
 
 func _init(size: int, levels: Array[CanvasPass]) -> void:
@@ -29,12 +31,12 @@ func _init(size: int, levels: Array[CanvasPass]) -> void:
 	for level in levels:
 		atlases.append(RenderingServer.texture_get_rd_texture(level.get_texture()))
 	# Of a static function, so that it may run after the object has gone.
-	_copy = _copy_levels.bind(cube, size, atlases)
+	_copy = _copy_levels.bind(cube, size, atlases, _outcome)
 
 
 func receive(_slice: int) -> bool:
 	RenderingServer.call_on_render_thread(_copy)
-	return true
+	return _outcome[0] == OK
 
 
 func get_faces() -> Array[Image]:
@@ -44,14 +46,21 @@ func get_faces() -> Array[Image]:
 	return faces
 
 
-static func _copy_levels(cube: RID, size: int, atlases: Array[RID]) -> void:
+static func _copy_levels(cube: RID, size: int, atlases: Array[RID], outcome: Array[Error]) -> void:
 	var device := RenderingServer.get_rendering_device()
+	outcome[0] = ERR_UNAVAILABLE
+	if not cube.is_valid() or not atlases.all(device.texture_is_valid):
+		return
 	for level in atlases.size():
 		var side := size >> level
 		for face in 6:
 			@warning_ignore("integer_division")
 			var corner := Vector3(face % 3, face / 3, 0.0) * side
 			var extent := Vector3(side, side, 1.0)
-			device.texture_copy(
+			var error := device.texture_copy(
 				atlases[level], cube, corner, Vector3.ZERO, extent, 0, level, 0, face
 			)
+			if error != OK:
+				outcome[0] = error
+				return
+	outcome[0] = OK
