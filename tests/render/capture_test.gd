@@ -3,6 +3,7 @@ extends GdUnitTestSuite
 
 const Kit := preload("support/render_kit.gd")
 const SkyKit := preload("support/sky_kit.gd")
+const MODES := LobeEnvironment3D.UpdateMode
 const SIDE := 48
 const MIDDLE := 24
 # Layers of the scene: what is captured, and the mirror that shows it.
@@ -101,19 +102,78 @@ func test_mirrors_in_the_scene_show_the_update_before() -> void:
 	material.table = LobeTable.make_single_lobe(0.001)
 	mirror.material_override = material
 	_add_wall(Vector3(0.0, 0.0, -3.0), Color.GREEN)
-	_environment.update_mode = LobeEnvironment3D.UpdateMode.ONCE
+	_environment.update_mode = MODES.ONCE
 	await _environment.rebuild()
-	# The first capture saw the neutral light in the mirror, the second what the first one saw.
+	# The first capture saw no light in the mirror, the second what the first one saw.
 	var first: Color = await _mirrored()
 	await _environment.rebuild()
 	var second: Color = await _mirrored()
-	assert_float(first.r).is_greater(0.05)
+	_assert_colour(first, Color.BLACK)
 	_assert_colour(second, Color.GREEN)
+
+
+func test_a_closed_room_without_a_lamp_is_dark() -> void:
+	_add_lobe_room()
+	# Hidden, it captures the room in the neutral light.
+	_environment.hide()
+	await _settle_lobes()
+	assert_float(_mean()).is_greater(0.05)
+	_environment.show()
+	await _frames(2)
+	assert_float(_mean()).is_equal(0.0)
+	# Nor does the light of another source stay in it.
+	_environment.panorama = Kit.constant(1.0)
+	for mode: LobeEnvironment3D.UpdateMode in [MODES.WHEN_CHANGED, MODES.TIME_SLICED]:
+		_environment.update_mode = mode
+		_environment.source = LobeEnvironment3D.Source.PANORAMA
+		await _environment.rebuilt
+		assert_float(_mean()).is_greater(0.5)
+		_environment.source = LobeEnvironment3D.Source.CAPTURE
+		await _environment.rebuilt
+		assert_float(_mean()).is_equal(0.0)
+		await _frames(1)
+
+
+func test_the_first_capture_is_dark_already() -> void:
+	_add_lobe_room()
+	_environment.hide()
+	await _settle_lobes()
+	var other := LobeEnvironment3D.new()
+	other.source = LobeEnvironment3D.Source.CAPTURE
+	other.size = 16
+	other.capture_cull_mask = SCENE
+	_view.add_child(other)
+	_environment.free()
+	_environment = other
+	await _environment.rebuild()
+	assert_float(_mean()).is_equal(0.0)
+
+
+func test_captures_come_to_what_endless_ones_show() -> void:
+	var walls := _add_lobe_room()
+	walls[0].emission = Color.WHITE
+	await _settle_lobes()
+	await _environment.rebuild()
+	await _frames(6)
+	var few := _mean()
+	_environment.update_mode = MODES.EVERY_FRAME
+	await _frames(24)
+	var endless := _mean()
+	assert_float(endless).is_greater(0.1)
+	assert_float(few / endless).is_between(0.9, 1.0)
+	# A lamp that goes out leaves next to nothing.
+	_environment.update_mode = MODES.WHEN_CHANGED
+	await _frames(6)
+	walls[0].emission = Color.BLACK
+	await _frames(2)
+	await _environment.rebuild()
+	await _frames(6)
+	assert_float(_mean() / endless).is_less(0.05)
 
 
 func test_the_scene_moves_in_every_frame() -> void:
 	var wall := _add_wall(Vector3(0.0, 0.0, 3.0), Color.RED)
-	_environment.update_mode = LobeEnvironment3D.UpdateMode.EVERY_FRAME
+	_environment.update_mode = MODES.EVERY_FRAME
 	await _environment.rebuild()
 	_assert_colour(await _mirrored(), Color.RED)
 	(wall.material_override as StandardMaterial3D).albedo_color = Color.GREEN
@@ -135,6 +195,47 @@ func _add_room() -> void:
 	lamp.omni_range = 12.0
 	lamp.light_energy = 3.0
 	_view.add_child(lamp)
+
+
+# Of grey walls that show the environment's light; their materials.
+func _add_lobe_room() -> Array[LobeMaterial3D]:
+	_view.camera.environment.background_color = Color.BLACK
+	var materials: Array[LobeMaterial3D] = []
+	for axis in SkyKit.AXES:
+		var wall := _add_wall(4.0 * axis, Color.WHITE)
+		var material := LobeMaterial3D.new()
+		material.albedo = Color(0.6, 0.6, 0.6)
+		material.metallic = 0.0
+		material.cull_mode = LobeMaterial3D.CullMode.DISABLED
+		wall.material_override = material
+		materials.append(material)
+	_environment.size = 16
+	return materials
+
+
+# Until the shaders are there, see _settle.
+func _settle_lobes() -> void:
+	for i in 500:
+		await _environment.rebuild()
+		if _mean() > 0.05:
+			return
+
+
+# Of the cube map's texels.
+func _mean() -> float:
+	var sum := 0.0
+	var count := 0
+	for face: Image in _environment._chain.cube.get_faces():
+		for y in face.get_height():
+			for x in face.get_width():
+				sum += face.get_pixel(x, y).g
+				count += 1
+	return sum / count
+
+
+func _frames(count: int) -> void:
+	for i in count:
+		await RenderingServer.frame_post_draw
 
 
 # A square wall facing the middle.

@@ -196,14 +196,24 @@ func test_slices_make_the_same_light() -> void:
 		assert_bool(whole[face].get_data() == sliced[face].get_data()).is_true()
 
 
-func test_cost_is_measured() -> void:
-	_environment.update_mode = MODES.EVERY_FRAME
-	await _frames(2)
-	assert_float(_environment.update_gpu_time).is_equal(0.0)
-	_environment.measure_cost = true
-	await _frames(12)
-	assert_float(_environment.update_gpu_time).is_greater(0.0)
-	assert_float(_environment.update_cpu_time).is_greater(0.0)
+func test_cost_is_measured_in_every_mode() -> void:
+	for mode: LobeEnvironment3D.UpdateMode in MODES.values():
+		_environment.update_mode = mode
+		_environment.measure_cost = false
+		await _frames(2)
+		assert_float(_environment.update_gpu_time).is_equal(0.0)
+		_environment.measure_cost = true
+		await _frames(24)
+		var told := "in mode %d" % mode
+		assert_float(_environment.update_gpu_time).append_failure_message(told).is_greater(0.0)
+		assert_float(_environment.update_cpu_time).append_failure_message(told).is_greater(0.0)
+		var time := _environment.update_gpu_time
+		if mode == MODES.ONCE or mode == MODES.WHEN_CHANGED:
+			# It stays when the memory for drawing has been given back.
+			_rebuilt = 0
+			await _frames(LobeEnvironment3D._IDLE_FRAMES + 8)
+			assert_float(_environment.update_gpu_time).is_equal(time)
+			assert_int(_rebuilt).is_equal(0)
 
 
 func test_hundreds_of_updates_leave_nothing_behind() -> void:

@@ -21,6 +21,19 @@ var rotation := Basis.IDENTITY
 var energy := 1.0
 
 
+## No light, at levels that blur alike in all directions or not.
+static func make_dark(even: bool) -> RefCounted:
+	var light := new()
+	light.cubemap = Cubemap.new()
+	var faces: Array[Image] = []
+	for face in 6:
+		faces.append(Image.create_empty(1, 1, false, Image.FORMAT_RGBAH))
+	light.cubemap.create_from_images(faces)
+	light.is_even = even
+	light.energy = 0.0
+	return light
+
+
 ## Hands the light to a material of the rendering server.
 func apply(material: RID) -> void:
 	var server := RenderingServer

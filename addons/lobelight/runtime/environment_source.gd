@@ -7,6 +7,7 @@ extends RefCounted
 enum Kind { NONE, PANORAMA, SKY_PANORAMA, SKY_VIEWS, SCENE_VIEWS }
 
 const EnvironmentLight := preload("environment_light.gd")
+const LiveTextures := preload("live_textures.gd")
 const Pyramid := preload("pyramid.gd")
 const PyramidChain := preload("pyramid_chain.gd")
 const WorldLight := preload("world_light.gd")
@@ -71,6 +72,8 @@ func look() -> bool:
 	_kind = kind
 	if _world != null:
 		changed = _world.look(_get_views()) or changed
+	if _kind < Kind.SKY_VIEWS:
+		changed = changed or LiveTextures.is_live(_find_panorama())
 	return _make_key() != _key or changed
 
 

@@ -42,8 +42,9 @@ enum Source {
 	## [member panorama], turned by the node's rotation. Its position and scale do not matter.
 	PANORAMA,
 	## The scene around the node's position, and its sky. The node's rotation does not matter.
-	## [LobeMaterial3D]s in the scene show the light of the update before; the first capture is made
-	## twice, so that they do not show the neutral map.
+	## [LobeMaterial3D]s in it show the light of the capture before, and none at the first one, so that
+	## each capture brings one more reflection between them. Four are made one after the other when
+	## something has changed.
 	CAPTURE,
 }
 
@@ -52,9 +53,12 @@ enum UpdateMode {
 	## When the node enters the tree, when its own properties change, and by [method rebuild].
 	ONCE,
 	## Also when the source changes: another panorama or sky, any property of the
-	## [Environment]'s background and of the sky's material, and [DirectionalLight3D]s. Shaders that
-	## move by themselves (TIME) or with the camera (POSITION), and what happens in a
-	## captured scene, do not count; moving the node does, where it captures.
+	## [Environment]'s background and of the sky's material, and [DirectionalLight3D]s. A panorama or
+	## a texture of the sky's that is a [ViewportTexture], or that a camera or the rendering device
+	## fills, counts as changed in every frame. Nothing tells of shaders that move by themselves
+	## (TIME) or with the camera (POSITION), of global uniforms, of textures that are
+	## filled without their signal [signal Resource.changed], and of what happens in a captured scene:
+	## take another mode, or call [method rebuild]. Moving the node counts, where it captures.
 	WHEN_CHANGED,
 	## In every frame.
 	EVERY_FRAME,
@@ -86,6 +90,8 @@ const PyramidChain := preload("pyramid_chain.gd")
 const _GROUP := &"_lobelight_environments"
 # Frames without an update after which the memory for drawing is given back.
 const _IDLE_FRAMES := 120
+# Captures after that of a change, each of which brings one more reflection between materials.
+const _ECHOES := 3
 # What is drawn in one frame has no slices.
 const _WHOLE := -1
 
@@ -115,7 +121,8 @@ static var _arrivals := 0
 		if panorama != null:
 			panorama.changed.disconnect(_on_panorama_changed)
 		panorama = value
-		if panorama != null:
+		# A sky may have the same one.
+		if panorama != null and not panorama.changed.is_connected(_on_panorama_changed):
 			panorama.changed.connect(_on_panorama_changed)
 		_mark_stale()
 		update_configuration_warnings()
@@ -164,7 +171,8 @@ var size := 0:
 		update_configuration_warnings()
 
 @export_group("Cost")
-## Whether updates are measured. It costs a few queries of the GPU's clock per update.
+## Whether updates are measured. It costs a few queries of the GPU's clock per update, and updates
+## that nothing follows are drawn again in a few frames, until the clock has answered.
 @export var measure_cost := false:
 	set(value):
 		measure_cost = value
@@ -173,7 +181,9 @@ var size := 0:
 ## 0 if it is not measured. An update that is spread over frames takes it in all.
 @export var update_gpu_time: float:
 	get:
-		return _chain.get_gpu_time() if _chain != null and measure_cost else _gpu_time
+		if not measure_cost:
+			return 0.0
+		return _chain.get_gpu_time() if _chain != null else _gpu_time
 ## Milliseconds of the processor for handing the last update to the cube map. In Compatibility it
 ## contains the wait for the GPU.
 @export var update_cpu_time: float:
@@ -196,6 +206,11 @@ var _running := false
 var _slice := _WHOLE
 var _drawn := false
 var _idle := 0
+# Captures that are still to follow, and whether materials have shown no light but the node's
+# captures since these began without any; whether they show none at the moment.
+var _echoes := 0
+var _lit_by_itself := false
+var _in_the_dark := false
 # Whether the node lights its world, and from what its light was made.
 var _active := false
 var _light_kind := EnvironmentSource.Kind.NONE
@@ -319,7 +334,7 @@ func _on_frame_pre_draw() -> void:
 		_chain.draw(_slice)
 		_drawn = true
 		_idle = 0
-	elif _chain != null:
+	elif _chain != null and not _chain.draw_for_clock():
 		_idle += 1
 		if _idle > _IDLE_FRAMES or update_mode == UpdateMode.ONCE and not measure_cost:
 			_gpu_time = update_gpu_time
@@ -327,16 +342,24 @@ func _on_frame_pre_draw() -> void:
 
 
 func _start_if_due() -> void:
-	var is_live := update_mode == UpdateMode.EVERY_FRAME or update_mode == UpdateMode.TIME_SLICED
 	if not _stale:
 		# Without a light there is something in the way, which only a property can change.
-		if _light == null or not _active or update_mode == UpdateMode.ONCE:
+		if _light == null or not _active:
+			return
+		if _echoes > 0:
+			var echoes := _echoes - 1
+			if _begin(_WHOLE):
+				_echoes = echoes
+			return
+		if update_mode == UpdateMode.ONCE:
 			return
 		if _light_kind == EnvironmentSource.Kind.SKY_PANORAMA:
 			_update_placement()
-		_stale = is_live or _source.look()
+		_stale = _is_live() or _source.look()
 		if not _stale:
 			return
+	if update_mode == UpdateMode.TIME_SLICED and _chain != null and _chain.awaits_clock():
+		return
 	var is_sliced := update_mode == UpdateMode.TIME_SLICED and _light != null
 	_begin(0 if is_sliced else _WHOLE)
 
@@ -361,9 +384,27 @@ func _begin(slice: int) -> bool:
 	_source.look()
 	_chain = _source.make_chain(_chain)
 	_slice = slice
+	_prepare_capture()
 	_running = true
 	_drawn = false
 	return true
+
+
+# What materials show before the node's first capture is no light of the scene's.
+func _prepare_capture() -> void:
+	var captures := _source.get_kind() == EnvironmentSource.Kind.SCENE_VIEWS
+	_echoes = _ECHOES if captures and not _is_live() else 0
+	_lit_by_itself = _lit_by_itself and captures
+	if captures and _active and not _lit_by_itself:
+		_lit_by_itself = true
+		_in_the_dark = true
+		_slice = _WHOLE
+		var is_even := Pyramid.is_round(filter as Pyramid.Filter)
+		LightRegistry.offer(get_instance_id(), EnvironmentLight.make_dark(is_even))
+
+
+func _is_live() -> bool:
+	return update_mode == UpdateMode.EVERY_FRAME or update_mode == UpdateMode.TIME_SLICED
 
 
 func _on_frame_post_draw() -> void:
@@ -385,16 +426,17 @@ func _on_frame_post_draw() -> void:
 	_frames = 1 if _slice == _WHOLE else _slice
 	_cpu_time = _chain.transfer_time
 	_light_kind = _source.get_kind()
-	if _light == null and _light_kind == EnvironmentSource.Kind.SCENE_VIEWS:
-		_stale = true
+	_lit_by_itself = _lit_by_itself and _active
 	_set_light(_chain.get_light())
 
 
 func _set_light(light: EnvironmentLight) -> void:
 	var is_other := light != _light
 	_light = light
+	_lit_by_itself = _lit_by_itself and light != null
 	_update_placement()
-	if is_other:
+	if is_other or _in_the_dark:
+		_in_the_dark = false
 		_check_in()
 	if light != null:
 		rebuilt.emit()
@@ -404,6 +446,8 @@ func _set_light(light: EnvironmentLight) -> void:
 # What has been drawn of another world's light is of no use.
 func _leave_world() -> void:
 	_active = false
+	_lit_by_itself = false
+	_in_the_dark = false
 	if _light_kind == EnvironmentSource.Kind.PANORAMA and not _running:
 		return
 	if _source.leave_world():
@@ -420,8 +464,13 @@ func _check_in() -> void:
 		return
 	update_configuration_warnings()
 	_active = is_active()
-	if _light == null or not _active:
+	if _active and _light_kind == EnvironmentSource.Kind.SCENE_VIEWS and not _lit_by_itself:
+		# It was captured in another's light.
+		_stale = true
+	if not _active or _light == null and not _in_the_dark:
 		LightRegistry.withdraw(get_instance_id())
+		return
+	if _in_the_dark:
 		return
 	if LightRegistry.offer(get_instance_id(), _light) and not _warned:
 		_warned = true

@@ -16,6 +16,10 @@ const PyramidCube := preload("pyramid_cube.gd")
 const _GPU_CUBE := "res://addons/lobelight/runtime/gpu_cube.gd"
 const _PACKED_CUBE := "res://addons/lobelight/runtime/packed_cube.gd"
 
+# The engine tells some frames later what drawing a viewport took, and only if it draws it in that
+# frame as well.
+const _CLOCK_FRAMES := 8
+
 ## Null if the light comes from a panorama.
 var views: FaceViews
 var pyramid := Pyramid.new()
@@ -24,6 +28,9 @@ var cube: PyramidCube
 var transfer_time := 0.0
 
 var _light: EnvironmentLight
+var _is_measured := false
+# Frames in which the last update is still to be drawn again for the clock's sake.
+var _clock_frames := 0
 
 
 func _init(drawn_views: FaceViews = null) -> void:
@@ -82,6 +89,9 @@ func receive(slice: int) -> bool:
 		if slice == first + part or slice < 0:
 			received = cube.receive(part) and received
 	transfer_time += 0.001 * (Time.get_ticks_usec() - start)
+	# All of it takes what its slices take, so that these need not be measured each time.
+	if _is_measured and (slice < 0 or slice == get_slices() - 1 and get_gpu_time() == 0.0):
+		_clock_frames = _CLOCK_FRAMES
 	return received
 
 
@@ -99,8 +109,23 @@ func get_light() -> EnvironmentLight:
 
 ## Has the renderer measure what the draws take.
 func measure() -> void:
+	_is_measured = true
 	for viewport in _get_viewports():
 		RenderingServer.viewport_set_measure_render_time(viewport, true)
+
+
+## Whether an update's time is still to come, and nothing else should be drawn before.
+func awaits_clock() -> bool:
+	return _clock_frames > 0
+
+
+## Has the last update drawn again in the next frame if its time is still to come; whether it has.
+func draw_for_clock() -> bool:
+	if _clock_frames == 0:
+		return false
+	_clock_frames -= 1
+	draw(-1)
+	return true
 
 
 ## Milliseconds of the GPU for an update, as last measured; it comes some frames late.

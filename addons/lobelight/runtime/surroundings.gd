@@ -3,6 +3,8 @@ extends RefCounted
 ## What the camera of a node's viewport sees around the scene: the environment that the engine would
 ## take, a copy of it for the views, and whether it has changed.
 
+const LiveTextures := preload("live_textures.gd")
+
 # What there is behind the scene, and the fog before it.
 const _BACKGROUND: Array[StringName] = [
 	&"background_mode",
@@ -147,6 +149,7 @@ func _look_at_sky(sky: Sky) -> void:
 			var texture: Texture2D = value
 			if not texture.changed.is_connected(_on_texture_changed):
 				texture.changed.connect(_on_texture_changed)
+		_differs = _differs or LiveTextures.is_live(value)
 
 
 # Whether a value is another than at the last look.
