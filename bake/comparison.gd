@@ -11,6 +11,8 @@ const TIMING_ROUNDS := 15
 ## Pixels along the side where times are measured. What a renderer spends on any frame weighs less
 ## than on smaller ones.
 const TIMING_SIZE := 256
+## Texels along a side of what graphics cards take as a texture.
+const LARGEST_TEXTURE := 16384
 # The name of the sphere that reflects nothing, among the measured ones; no method has it.
 const _EMPTY := ""
 
@@ -58,10 +60,17 @@ func run() -> String:
 
 
 ## The panorama of a file as [member ComparisonStage.panorama] wants it: {"texture"} or {"error"}.
+## Says what the reader has to say of it.
 static func load_panorama(path: String) -> Dictionary:
 	var panorama := NativeLibrary.load_panorama(path)
 	if panorama.has("error"):
 		return panorama
+	var side := maxi(panorama["width"] as int, panorama["height"] as int)
+	if side > LARGEST_TEXTURE:
+		var text := "%s: has %d texels along a side; a texture holds %d"
+		return {"error": text % [path, side, LARGEST_TEXTURE]}
+	for remark: String in panorama["warnings"] + panorama["notes"]:
+		printerr("%s: %s." % [path, remark])
 	var pixels: PackedFloat32Array = panorama["pixels"]
 	var image := Image.create_from_data(
 		panorama["width"], panorama["height"], false, Image.FORMAT_RGBF, pixels.to_byte_array()

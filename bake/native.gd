@@ -15,7 +15,8 @@ static func error() -> String:
 	return "the Lobelight library is not loaded; run ./dev setup to build it."
 
 
-## Reads an environment map: {"width", "height", "pixels", "clamped"} or {"error"}.
+## Reads an environment map: {"width", "height", "pixels", "clamped", "notes",
+## "warnings"} or {"error"}.
 static func load_panorama(path: String) -> Dictionary:
 	return create(&"LobeImageFile").call("load_panorama", path)
 

@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "image/image_error.h"
 #include "image/panorama.h"
@@ -99,7 +101,7 @@ TEST_CASE("Panorama::sample of one texel is that texel") {
   check_close(panorama.sample(glm::normalize(glm::dvec3(0.3, -0.8, 0.1))), {2, 3, 4}, 1e-12);
 }
 
-TEST_CASE("Panorama: negative and non-finite values count as 0") {
+TEST_CASE("Panorama: negative values and NaN count as 0, an infinite one is the brightest") {
   Panorama panorama = ramp(8, 4);
   float* texel = &panorama.rgb[3 * (1 * 8 + 2)];
   texel[0] = kNan;
@@ -107,12 +109,75 @@ TEST_CASE("Panorama: negative and non-finite values count as 0") {
   texel[2] = kInfinity;
   panorama.rgb[3 * (3 * 8 + 7) + 1] = -kInfinity;
   const auto between = [&] { return panorama.sample(panorama_direction({3.0 / 8, 1.5 / 4})); };
-  const glm::dvec3 expected(1.5, 0.5, 0.5);  // half of texel (3, 1)
-  check_close(between(), expected, 1e-12);
+  const glm::dvec3 expected(1.5, 0.5, 0.5 * 65504.0 + 0.5);  // between texels (2, 1) and (3, 1)
+  check_close(between(), expected, 1e-9);
   CHECK(panorama.sanitise() == 2);
-  check_close(between(), expected, 1e-12);
+  check_close(between(), expected, 1e-9);
   CHECK(panorama.rgb[3 * (3 * 8 + 7) + 1] == 0.0f);
+  CHECK(panorama.notes ==
+        std::vector<std::string>{"has 2 texels with negative channels, which are 0 now",
+                                 "has 1 texel with a channel that is no number and is 0 now"});
+  REQUIRE(panorama.warnings.size() == 1);
+  CHECK(panorama.warnings[0].find("has 1 texel that is infinite and has 65504 now") == 0);
   CHECK(panorama.sanitise() == 0);
+  CHECK(panorama.notes.size() == 2);
+}
+
+TEST_CASE("Panorama: an infinite value is not darker than a finite one") {
+  Panorama panorama{2, 1, {kInfinity, 1.0f, 2e6f, kInfinity, 0.0f, 0.0f}};
+  CHECK(panorama.sanitise() == 2);
+  CHECK(panorama.rgb == std::vector<float>{2e6f, 1.0f, 2e6f, 2e6f, 0.0f, 0.0f});
+  REQUIRE(panorama.warnings.size() == 1);
+  CHECK(panorama.warnings[0].find("has 2 texels that are infinite and have 2e+06 now") == 0);
+}
+
+TEST_CASE("Panorama::expose caps, and says how much of the light goes") {
+  // Rows of 4: a lit quarter of the sphere, as the sines of their middles weigh: s, c, c, s.
+  Panorama panorama{2, 4, std::vector<float>(24, 0.0f)};
+  for (int channel = 0; channel < 3; ++channel) {
+    panorama.rgb[static_cast<std::size_t>(channel)] = 4.0f * kLargestHalf;
+    panorama.rgb[static_cast<std::size_t>(6 + channel)] = kLargestHalf;
+  }
+  const double s = std::sin(3.14159265358979 / 8.0), c = std::cos(3.14159265358979 / 8.0);
+  Panorama kept = panorama;
+  CHECK(kept.expose(-2.0) == 0);
+  CHECK(kept.rgb[0] == kLargestHalf);
+  CHECK(kept.rgb[6] == kLargestHalf / 4.0f);
+  CHECK(kept.warnings.empty());
+  CHECK(panorama.expose(0.0) == 1);
+  CHECK(panorama.rgb[0] == kLargestHalf);
+  char share[16];
+  std::snprintf(share, sizeof share, "%.1f", 100.0 * 3.0 * s / (4.0 * s + c));
+  CHECK(panorama.warnings ==
+        std::vector<std::string>{
+            "has 1 texel that is brighter than 65504 and has that now: " + std::string(share) +
+            " % of the light is lost; an Exposure of -2.0 EV keeps it"});
+  // What the sentence proposes holds for every exposure that it comes from.
+  for (const double exposure : {-3.0, 0.0, 0.33, 5.0}) {
+    Panorama lamp{1, 1, {1e6f, 1e6f, 1e6f}};
+    CHECK(lamp.expose(exposure) == 1);
+    const std::string text = lamp.warnings.at(0);
+    Panorama again{1, 1, {1e6f, 1e6f, 1e6f}};
+    CHECK(again.expose(std::stod(text.substr(text.find("Exposure of ") + 12))) == 0);
+  }
+}
+
+TEST_CASE("check_proportions warns of what is hardly a panorama") {
+  const auto warning = [](int width, int height) {
+    Panorama panorama{width, height, {}};
+    check_proportions(panorama);
+    return panorama.warnings.empty() ? std::string() : panorama.warnings.front();
+  };
+  for (const auto& [width, height] : {std::pair{64, 32}, {4096, 2048}, {1025, 512}, {1, 1}}) {
+    CHECK(warning(width, height).empty());
+  }
+  CHECK(warning(300, 200) ==
+        "is 300 x 200 texels, but a panorama (latitude-longitude, 360 x 180 degrees) is twice as "
+        "wide as high");
+  CHECK(warning(48, 64).find("; this may be a cross of a cube") != std::string::npos);
+  CHECK(warning(64, 48).find("; this may be a cross of a cube") != std::string::npos);
+  CHECK(warning(64, 64).find("; a square is a light probe or one face") != std::string::npos);
+  CHECK(warning(64, 384).find("; this may be the faces of a cube") != std::string::npos);
 }
 
 std::string message_of(const std::vector<std::uint8_t>& bytes) {

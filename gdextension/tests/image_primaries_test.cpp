@@ -41,11 +41,19 @@ TEST_CASE("Primaries: ACEScg to Rec. 709 with Bradford adaptation") {
   check_matrix(acescg, rows, 1e-3);
 }
 
-TEST_CASE("Primaries: white stays white, CIE XYZ included") {
-  const Primaries xyz = {{1, 0}, {0, 1}, {0, 0}, {1.0 / 3, 1.0 / 3}};
-  const auto conversion = conversion_to_rec709(xyz);
+TEST_CASE("Primaries: white stays white") {
+  const Primaries cie_rgb = {
+      {0.7347, 0.2653}, {0.2738, 0.7174}, {0.1666, 0.0089}, {1.0 / 3, 1.0 / 3}};
+  const auto conversion = conversion_to_rec709(cie_rgb);
   REQUIRE(conversion);
   CHECK(glm::length(*conversion * glm::dvec3(1.0) - glm::dvec3(1.0)) < 1e-12);
+}
+
+TEST_CASE("Primaries: CIE XYZ holds tristimulus values, which no white changes") {
+  // IEC 61966-2-1, from XYZ to linear sRGB.
+  const glm::dmat3 rows(3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570);
+  check_matrix(kCieXyz, rows, 3e-3);
+  check_matrix({{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {0.3333, 0.3333}}, rows, 3e-3);
 }
 
 TEST_CASE("Primaries: sRGB as ICC profiles state it, adapted to D50, is Rec. 709") {

@@ -42,6 +42,9 @@ def write_maps(folder: Path) -> None:
         file.write(str(folder / "wild.exr"))
     with OpenEXR.File(header(OpenEXR.ZIP_COMPRESSION), {"A": plane(1.0)}) as file:
         file.write(str(folder / "alpha.exr"))
+    square = {c: np.ones((WIDTH, WIDTH), dtype=np.float16) for c in "RGB"}
+    with OpenEXR.File(header(OpenEXR.ZIP_COMPRESSION), square) as file:
+        file.write(str(folder / "square.exr"))
     whole = (folder / "layers.exr").read_bytes()
     (folder / "cut.exr").write_bytes(whole[: len(whole) * 2 // 3])
     (folder / "text.exr").write_text("not a picture")

@@ -23,7 +23,7 @@ func test_exr_round_trip_keeps_every_value() -> void:
 	assert_str(LobeImageFile.save_exr(path, WIDTH, HEIGHT, pixels)).is_empty()
 	var read := LobeImageFile.load_panorama(path)
 	assert_array(read.keys()).contains_exactly_in_any_order(
-		["width", "height", "pixels", "clamped"]
+		["width", "height", "pixels", "clamped", "notes", "warnings"]
 	)
 	assert_int(read.width).is_equal(WIDTH)
 	assert_int(read.height).is_equal(HEIGHT)
@@ -42,15 +42,21 @@ func test_the_engine_reads_what_is_written() -> void:
 	assert_that(image.get_pixel(1, 0)).is_equal(Color(0.5, 2.0, 8.0))
 
 
-func test_negative_and_non_finite_values_are_counted_and_become_zero() -> void:
+func test_values_that_are_no_light_are_counted_and_replaced() -> void:
 	# Three of four texels, one of them twice over.
 	var pixels := PackedFloat32Array([1, -1, NAN, 1, 2, 3, INF, 0, 0, 0, -0.5, 0])
 	var path := _folder.path_join("clamped.exr")
 	assert_str(LobeImageFile.save_exr(path, 4, 1, pixels)).is_empty()
 	var read := LobeImageFile.load_panorama(path)
 	assert_int(read.clamped).is_equal(3)
-	var expected := PackedFloat32Array([1, 0, 0, 1, 2, 3, 0, 0, 0, 0, 0, 0])
+	var expected := PackedFloat32Array([1, 0, 0, 1, 2, 3, 65504, 0, 0, 0, 0, 0])
 	assert_bool(read.pixels == expected).is_true()
+	assert_array(read.notes).contains_exactly(
+		"has 2 texels with negative channels, which are 0 now",
+		"has 1 texel with a channel that is no number and is 0 now"
+	)
+	assert_int(read.warnings.size()).is_equal(1)
+	assert_str(read.warnings[0]).starts_with("has 1 texel that is infinite and has 65504 now")
 
 
 func test_half_panorama_is_an_image_for_a_texture() -> void:

@@ -11,11 +11,12 @@ VIEW = np.array([0.0, 0.0, 1.0])
 
 
 def read_panorama(path):
-    """Returns float64 (height, width, 3); negative and non-finite values are 0."""
+    """Returns float64 (height, width, 3); negative values and NaN are 0, infinite ones 65504 or the largest, if that is more."""
     with OpenEXR.File(str(path), separate_channels=True) as file:
         channels = file.channels()
         picture = np.stack([channels[c].pixels.astype(np.float64) for c in "RGB"], axis=-1)
-    return np.where(np.isfinite(picture) & (picture > 0), picture, 0.0)
+    brightest = max(65504.0, picture.max(initial=0.0, where=np.isfinite(picture)))
+    return np.where(picture > 0, np.minimum(picture, brightest), 0.0)
 
 
 def write_panorama(path, picture):

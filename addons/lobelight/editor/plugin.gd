@@ -48,7 +48,10 @@ func _enter_tree() -> void:
 	EditorInterface.get_base_control().add_child(_bake_dialog)
 	_table_inspector = TableInspector.new(_bakes)
 	add_inspector_plugin(_table_inspector)
-	_importers = [PanoramaImporter.new(), MeasuredImporter.new()]
+	var panoramas := PanoramaImporter.new()
+	# The editor listens first and reloads what it finds loaded.
+	EditorInterface.get_resource_filesystem().resources_reimported.connect(panoramas.on_reimported)
+	_importers = [panoramas, MeasuredImporter.new()]
 	for importer in _importers:
 		add_import_plugin(importer)
 	_warning_inspector = WarningInspector.new()

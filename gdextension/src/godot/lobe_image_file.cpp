@@ -1,7 +1,5 @@
 #include "godot/lobe_image_file.h"
 
-#include <algorithm>
-#include <cmath>
 #include <exception>
 #include <vector>
 
@@ -16,10 +14,21 @@ namespace lobelight {
 
 namespace {
 
-constexpr double kLargestHalf = 65504.0;
+Array to_array(const std::vector<std::string>& texts) {
+  Array result;
+  for (const std::string& text : texts) result.append(to_godot(text));
+  return result;
+}
 
-Panorama read_panorama(const String& path, const String& layer) {
-  return lobelight::load_panorama(file_system_path(path), to_std(layer));
+// What the results of both readers have in common.
+Dictionary describe(const Panorama& panorama, std::size_t clamped) {
+  Dictionary result;
+  result["width"] = panorama.width;
+  result["height"] = panorama.height;
+  result["clamped"] = static_cast<std::int64_t>(clamped);
+  result["notes"] = to_array(panorama.notes);
+  result["warnings"] = to_array(panorama.warnings);
+  return result;
 }
 
 // What `read` makes of the file, or the sentence of what it throws.
@@ -51,13 +60,10 @@ void LobeImageFile::_bind_methods() {
 
 Dictionary LobeImageFile::load_panorama(const String& path, const String& layer) {
   return result_of(path, [&] {
-    Panorama panorama = read_panorama(path, layer);
+    Panorama panorama = lobelight::load_panorama(file_system_path(path), to_std(layer));
     const std::size_t clamped = panorama.sanitise();
-    Dictionary result;
-    result["width"] = panorama.width;
-    result["height"] = panorama.height;
+    Dictionary result = describe(panorama, clamped);
     result["pixels"] = to_godot(panorama.rgb);
-    result["clamped"] = static_cast<std::int64_t>(clamped);
     return result;
   });
 }
@@ -65,41 +71,30 @@ Dictionary LobeImageFile::load_panorama(const String& path, const String& layer)
 Dictionary LobeImageFile::load_half_panorama(const String& path, const String& layer,
                                              double exposure) {
   return result_of(path, [&] {
-    Panorama panorama = read_panorama(path, layer);
+    Panorama panorama =
+        lobelight::load_panorama(file_system_path(path), to_std(layer), kMaxTextureSide);
     const std::size_t clamped = panorama.sanitise();
-    const double factor = std::exp2(exposure);
+    const std::size_t capped = panorama.expose(exposure);
     const std::uint16_t one = half_from_double(1.0);
     std::vector<std::uint16_t> halves;
     halves.reserve(panorama.rgb.size() / 3 * 4);
-    std::int64_t capped = 0;
     for (std::size_t texel = 0; texel + 2 < panorama.rgb.size(); texel += 3) {
-      bool is_capped = false;
       for (std::size_t channel = 0; channel < 3; ++channel) {
-        const double value = factor * static_cast<double>(panorama.rgb[texel + channel]);
-        is_capped = is_capped || value > kLargestHalf;
-        halves.push_back(half_from_double(std::min(value, kLargestHalf)));
+        halves.push_back(half_from_double(static_cast<double>(panorama.rgb[texel + channel])));
       }
       halves.push_back(one);
-      capped += is_capped ? 1 : 0;
     }
-    Dictionary result;
-    result["width"] = panorama.width;
-    result["height"] = panorama.height;
+    Dictionary result = describe(panorama, clamped);
     result["data"] = to_bytes(halves);
-    result["clamped"] = static_cast<std::int64_t>(clamped);
-    result["capped"] = capped;
+    result["capped"] = static_cast<std::int64_t>(capped);
     return result;
   });
 }
 
 Dictionary LobeImageFile::list_layers(const String& path) {
   return result_of(path, [&] {
-    Array layers;
-    for (const std::string& layer : panorama_layers(file_system_path(path))) {
-      layers.append(to_godot(layer));
-    }
     Dictionary result;
-    result["layers"] = layers;
+    result["layers"] = to_array(panorama_layers(file_system_path(path)));
     return result;
   });
 }

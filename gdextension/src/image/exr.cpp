@@ -1,20 +1,15 @@
 #include "image/exr.h"
 
-#include <ImathBox.h>
 #include <ImfChannelList.h>
 #include <ImfChromaticities.h>
-#include <ImfChromaticitiesAttribute.h>
 #include <ImfEnvmap.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
-#include <ImfOutputFile.h>
-#include <ImfRgbaYca.h>
 #include <ImfStandardAttributes.h>
 #include <ImfTileDescription.h>
-#include <half.h>
 #if __has_include(<ImfContextInit.h>)
 #include <ImfContextInit.h>
 #endif
@@ -22,16 +17,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
-#include <glm/common.hpp>
-#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "image/exr_chroma.h"
 #include "image/exr_layers.h"
-#include "image/file_io.h"
+#include "image/exr_window.h"
 #include "image/image_error.h"
 #include "image/primaries.h"
 
@@ -48,19 +43,11 @@ constexpr std::int64_t kMaxTileTexelsOfSmallPicture = std::int64_t{1} << 22;
 // A window of a few pixels in a huge picture is no panorama, and filling the rest costs memory.
 constexpr std::int64_t kMaxTexelsPerFilledTexel = 64;
 
-// Rounded chromaticities of Rec. 709, and those that ICC profiles of sRGB state for D50, give a
-// conversion that differs from the identity by less than this.
-constexpr double kSameColours = 0.005;
-
-constexpr float kLargestHalf = 65504.0f;
-
-// Columns and rows of the picture for one of chroma.
-constexpr int kChromaSampling = 2;
-
 class MemoryReader : public Imf::IStream {
  public:
-  MemoryReader(const std::vector<std::uint8_t>& bytes, const std::string& name)
-      : IStream(name.c_str()), bytes_(bytes) {}
+  // OpenEXR's messages name the file in the middle; ours do it at their beginning.
+  explicit MemoryReader(const std::vector<std::uint8_t>& bytes)
+      : IStream("this file"), bytes_(bytes) {}
 
   bool read(char* target, int count) override {
     const std::uint64_t wanted = static_cast<std::uint64_t>(std::max(count, 0));
@@ -106,7 +93,8 @@ void keep_complaint(exr_const_context_t, exr_result_t, const char* message) {
 Imf::MultiPartInputFile open_exr(MemoryReader& stream) {
   first_complaint.clear();
   Imf::ContextInitializer context;
-  context.silentHeaderParse(true).strictHeaderValidation(false).setInputStream(&stream);
+  // Silence would be no reason at all.
+  context.silentHeaderParse(false).strictHeaderValidation(false).setInputStream(&stream);
   context.setErrorHandler(keep_complaint);
   // No threads of OpenEXR's own: the caller may be one of many.
   return Imf::MultiPartInputFile(stream.fileName(), context, 0);
@@ -123,79 +111,25 @@ Imf::MultiPartInputFile open_exr(MemoryReader& stream) {
 std::string reason_of(const std::exception& error) { return error.what(); }
 #endif
 
-class MemoryWriter : public Imf::OStream {
- public:
-  explicit MemoryWriter(const std::string& name) : OStream(name.c_str()) {}
-
-  void write(const char* source, int count) override {
-    const std::size_t end = position_ + static_cast<std::size_t>(count);
-    if (end > bytes_.size()) bytes_.resize(end);
-    std::memcpy(bytes_.data() + position_, source, static_cast<std::size_t>(count));
-    position_ = end;
-  }
-  std::uint64_t tellp() override { return position_; }
-  void seekp(std::uint64_t position) override { position_ = static_cast<std::size_t>(position); }
-
-  const std::vector<char>& bytes() const { return bytes_; }
-
- private:
-  std::vector<char> bytes_;
-  std::size_t position_ = 0;
-};
-
-// Pixel bounds, both ends included, wide enough for every difference of two ints.
-struct Window {
-  std::int64_t left, top, right, bottom;
-
-  explicit Window(const Imath::Box2i& box)
-      : left(box.min.x), top(box.min.y), right(box.max.x), bottom(box.max.y) {}
-
-  std::int64_t width() const { return right - left + 1; }
-  std::int64_t height() const { return bottom - top + 1; }
-};
-
-// Refuses channels of another resolution than the picture's, apart from chroma.
+// Refuses colours of another resolution than the picture's; chroma may have one.
 void check_sampling(const Imf::ChannelList& channels, const ExrLayer& layer,
                     const std::string& name) {
   for (std::size_t c = 0; c < layer.channels.size(); ++c) {
     if (layer.channels[c].empty()) continue;
-    const bool is_chroma = layer.kind == ExrLayer::Kind::luminance_chroma && c > 0;
-    const int expected = is_chroma ? kChromaSampling : 1;
+    if (layer.kind == ExrLayer::Kind::luminance_chroma && c > 0) continue;
     const Imf::Channel& channel = *channels.findChannel(layer.channels[c]);
-    if (channel.xSampling != expected || channel.ySampling != expected) {
+    if (channel.xSampling != 1 || channel.ySampling != 1) {
       throw ImageError(name, "stores channel " + one_line(layer.channels[c]) +
-                                 " at a resolution that is not supported");
+                                 " at a lower resolution, which is not supported");
     }
-  }
-}
-
-// What takes the file's colours to Rec. 709; empty where they are that already.
-std::optional<glm::dmat3> colour_conversion(const Imf::Header& header, const std::string& name) {
-  if (!Imf::hasChromaticities(header)) return std::nullopt;
-  const Imf::Chromaticities& given = Imf::chromaticities(header);
-  const auto xy = [](const Imath::V2f& c) { return glm::dvec2(c.x, c.y); };
-  const auto conversion =
-      conversion_to_rec709({xy(given.red), xy(given.green), xy(given.blue), xy(given.white)});
-  if (!conversion) throw ImageError(name, "has primaries that span no colours");
-  double difference = 0.0;
-  for (int column = 0; column < 3; ++column) {
-    const glm::dvec3 deviation = glm::abs((*conversion)[column] - glm::dmat3(1.0)[column]);
-    difference = std::max({difference, deviation.x, deviation.y, deviation.z});
-  }
-  return difference < kSameColours ? std::nullopt : conversion;
-}
-
-void convert(Panorama& image, const glm::dmat3& conversion) {
-  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
-    float* rgb = &image.rgb[i];
-    const glm::vec3 converted(conversion * glm::dvec3(rgb[0], rgb[1], rgb[2]));
-    for (int c = 0; c < 3; ++c) rgb[c] = converted[c];
   }
 }
 
 void check_header(const Imf::Header& header, const std::string& name) {
   if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE) {
-    throw ImageError(name, "is a cube map, not a latitude-longitude panorama");
+    throw ImageError(name,
+                     "is a cube map, not a latitude-longitude panorama; OpenEXR's exrenvmap makes "
+                     "one of it");
   }
 }
 
@@ -218,15 +152,15 @@ void check_tiles(const Imf::Header& header, const Window& data, const std::strin
   }
 }
 
-void check_windows(const Window& display, const Window& data, const std::string& name) {
-  check_panorama_size(display.width(), display.height(), name);
+void check_windows(const Window& display, const Window& data, const std::string& name,
+                   std::int64_t max_side) {
+  check_panorama_size(display.width(), display.height(), name, max_side);
   check_panorama_size(data.width(), data.height(), name);
-  const std::int64_t width =
-      std::min(display.right, data.right) - std::max(display.left, data.left) + 1;
-  const std::int64_t height =
-      std::min(display.bottom, data.bottom) - std::max(display.top, data.top) + 1;
-  if (width < 1 || height < 1) throw ImageError(name, "has no pixels in its display window");
-  if (display.width() * display.height() > kMaxTexelsPerFilledTexel * width * height) {
+  const Window common = display.intersection(data);
+  if (common.width() < 1 || common.height() < 1) {
+    throw ImageError(name, "has no pixels in its display window");
+  }
+  if (display.texels() > kMaxTexelsPerFilledTexel * common.texels()) {
     throw ImageError(name, "fills less than 1/64 of its display window");
   }
 }
@@ -281,84 +215,40 @@ Panorama read_pixels(Imf::InputPart& part, const Window& display, const Window& 
   return image;
 }
 
-// The planes of a picture in luminance and chroma, of the data window.
-struct Planes {
-  std::vector<float> luminance;  // width · height
-  std::vector<float> red, blue;  // (R − Y) / Y and (B − Y) / Y of every other column and row
-};
-
-// Row by row as well.
-Planes read_planes(Imf::InputPart& part, const Window& data,
-                   const std::vector<std::string>& channels) {
-  Planes planes;
-  std::vector<float>* const targets[] = {&planes.luminance, &planes.red, &planes.blue};
-  for (std::int64_t top = data.top; top <= data.bottom; top += kBandRows) {
-    const std::int64_t bottom = std::min(top + kBandRows - 1, data.bottom);
-    Imf::FrameBuffer target;
-    const Imath::V2i origin(static_cast<int>(data.left), static_cast<int>(top));
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-      const std::int64_t step = c == 0 ? 1 : kChromaSampling;
-      const std::int64_t columns = (data.width() + step - 1) / step;
-      const std::int64_t rows = (bottom - top + step) / step;
-      const std::size_t first = targets[c]->size();
-      targets[c]->resize(first + static_cast<std::size_t>(columns * rows));
-      target.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, targets[c]->data() + first, origin,
-                                                  data.width(), bottom - top + 1, sizeof(float),
-                                                  static_cast<std::size_t>(columns) * sizeof(float),
-                                                  static_cast<int>(step), static_cast<int>(step)));
-    }
-    part.setFrameBuffer(target);
-    part.readPixels(static_cast<int>(top), static_cast<int>(bottom));
-  }
-  return planes;
-}
-
-// Chroma at a pixel of the data window: linear between the stored ones, the last ones beyond.
-double chroma_at(const std::vector<float>& plane, const Window& data, std::int64_t x,
-                 std::int64_t y) {
-  const std::int64_t columns = (data.width() + 1) / kChromaSampling;
-  const std::int64_t rows = (data.height() + 1) / kChromaSampling;
-  const std::int64_t left = x / kChromaSampling, top = y / kChromaSampling;
-  const std::int64_t right = std::min(left + x % kChromaSampling, columns - 1);
-  const std::int64_t bottom = std::min(top + y % kChromaSampling, rows - 1);
-  const auto at = [&](std::int64_t column, std::int64_t row) {
-    return static_cast<double>(plane[static_cast<std::size_t>(row * columns + column)]);
-  };
-  return 0.25 * (at(left, top) + at(right, top) + at(left, bottom) + at(right, bottom));
-}
-
-// R = (RY + 1) Y, B = (BY + 1) Y, and G so that the luminance is Y (ImfRgbaYca.h).
-Panorama read_luminance_chroma(Imf::InputPart& part, const Window& display, const Window& data,
-                               const std::vector<std::string>& channels) {
-  const Planes planes = read_planes(part, data, channels);
-  const Imf::Header& header = part.header();
-  const Imath::V3f weights = Imf::RgbaYca::computeYw(
-      Imf::hasChromaticities(header) ? Imf::chromaticities(header) : Imf::Chromaticities());
-  Panorama image;
-  image.width = static_cast<int>(display.width());
-  image.height = static_cast<int>(display.height());
-  image.rgb.resize(3 * static_cast<std::size_t>(display.width() * display.height()));
-  for (std::int64_t y = std::max(display.top, data.top); y <= std::min(display.bottom, data.bottom);
-       ++y) {
-    for (std::int64_t x = std::max(display.left, data.left);
-         x <= std::min(display.right, data.right); ++x) {
-      const std::int64_t column = x - data.left, row = y - data.top;
-      const double luminance =
-          planes.luminance[static_cast<std::size_t>(row * data.width() + column)];
-      const double red = (chroma_at(planes.red, data, column, row) + 1.0) * luminance;
-      const double blue = (chroma_at(planes.blue, data, column, row) + 1.0) * luminance;
-      const double green = (luminance - red * static_cast<double>(weights.x) -
-                            blue * static_cast<double>(weights.z)) /
-                           static_cast<double>(weights.y);
-      float* rgb = &image.rgb[3 * static_cast<std::size_t>((y - display.top) * display.width() + x -
-                                                           display.left)];
-      rgb[0] = static_cast<float>(red);
-      // Rounding and interpolation leave something where there is none.
-      rgb[1] = static_cast<float>(green < 0.0 ? 0.0 : green);
-      rgb[2] = static_cast<float>(blue);
+// What the header says that changes what one sees, and what became of it.
+void tell_of_header(const Imf::Header& header, const ExrLayer& layer, const Window& display,
+                    const Window& data, Panorama& image) {
+  if (layer.kind == ExrLayer::Kind::colour) {
+    const char* const names[] = {"red", "green", "blue"};
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (layer.channels[c].empty()) {
+        image.warnings.push_back(std::string("has no ") + names[c] + " channel, which is 0");
+      }
     }
   }
-  return image;
+  const double covered = static_cast<double>(display.intersection(data).texels()) /
+                         static_cast<double>(display.texels());
+  if (covered < 1.0) {
+    char text[80];
+    std::snprintf(text, sizeof text, "fills %.3g %% of its display window; the rest is black",
+                  100.0 * covered);
+    image.warnings.push_back(text);
+  }
+  if (display.intersection(data).texels() < data.texels()) {
+    image.notes.push_back("has pixels beyond its display window, which are cut");
+  }
+  if (header.pixelAspectRatio() != 1.0f) {
+    image.notes.push_back("has a pixelAspectRatio, which is left aside");
+  }
+  if (Imf::hasWhiteLuminance(header)) {
+    image.notes.push_back("has a whiteLuminance, which is left aside");
+  }
+  if (Imf::hasAdoptedNeutral(header)) {
+    image.notes.push_back("has an adoptedNeutral, which is left aside");
+  }
+  if (Imf::hasEnvmap(header) && Imf::hasWorldToCamera(header)) {
+    image.notes.push_back("has a worldToCamera, which is left aside");
+  }
 }
 
 std::vector<Imf::Header> headers_of(const Imf::MultiPartInputFile& file) {
@@ -372,7 +262,7 @@ template <class Read>
 auto with_file(const std::vector<std::uint8_t>& bytes, const std::string& name, const Read& read) {
   if (!looks_like_exr(bytes)) throw ImageError(name, "is not an OpenEXR file");
   try {
-    MemoryReader stream(bytes, name);
+    MemoryReader stream(bytes);
     Imf::MultiPartInputFile file = open_exr(stream);
     return read(stream, file);
   } catch (const ImageError&) {
@@ -382,29 +272,6 @@ auto with_file(const std::vector<std::uint8_t>& bytes, const std::string& name, 
   } catch (const std::exception& error) {
     throw ImageError(name, "is damaged or not supported (" + one_line(reason_of(error)) + ")");
   }
-}
-
-std::vector<half> to_half(const std::vector<float>& values) {
-  std::vector<half> halves(values.size());
-  std::transform(values.begin(), values.end(), halves.begin(), [](float value) {
-    // Infinities and NaN stay what they are.
-    return half(std::isfinite(value) ? std::clamp(value, -kLargestHalf, kLargestHalf) : value);
-  });
-  return halves;
-}
-
-// Interleaved values of one type as the slices of a frame buffer.
-template <typename T>
-Imf::FrameBuffer interleaved(Imf::PixelType type, std::vector<T>& values, int width, int height,
-                             const std::vector<std::string>& channels) {
-  Imf::FrameBuffer buffer;
-  const std::size_t stride = channels.size() * sizeof(T);
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    buffer.insert(channels[c],
-                  Imf::Slice::Make(type, values.data() + c, Imath::V2i(0, 0), width, height, stride,
-                                   stride * static_cast<std::size_t>(width)));
-  }
-  return buffer;
 }
 
 }  // namespace
@@ -424,15 +291,16 @@ std::vector<std::string> exr_layers(const std::vector<std::uint8_t>& bytes,
 }
 
 Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& name,
-                    const std::string& label) {
+                    const std::string& label, std::int64_t max_side) {
   return with_file(bytes, name, [&](MemoryReader& stream, Imf::MultiPartInputFile& file) {
     const ExrLayer layer = choose_layer(headers_of(file), label, name);
     const Imf::Header& header = file.header(layer.part);
     check_header(header, name);
     check_sampling(header.channels(), layer, name);
-    const Window display(header.displayWindow());
     const Window data(header.dataWindow());
-    check_windows(display, data, name);
+    // Of an environment map it is the data window that goes around (ImfEnvmap.h).
+    const Window display = Imf::hasEnvmap(header) ? data : Window(header.displayWindow());
+    check_windows(display, data, name, max_side);
     check_tiles(header, data, name);
     Imf::InputPart part(file, layer.part);
     stream.take_ran_short();  // reading ahead in the header is no fault
@@ -441,42 +309,15 @@ Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& n
                          : read_pixels(part, display, data, layer.channels);
     // OpenEXR 3.4 takes uncompressed rows that end early and fills them up.
     if (stream.take_ran_short()) throw ImageError(name, "ends in the middle of its pixels");
-    if (layer.kind != ExrLayer::Kind::grey) {
-      if (const auto conversion = colour_conversion(header, name)) convert(image, *conversion);
+    tell_of_header(header, layer, display, data, image);
+    if (layer.kind != ExrLayer::Kind::grey && Imf::hasChromaticities(header)) {
+      const Imf::Chromaticities& given = Imf::chromaticities(header);
+      const auto xy = [](const Imath::V2f& c) { return glm::dvec2(c.x, c.y); };
+      convert_to_rec709(image, {xy(given.red), xy(given.green), xy(given.blue), xy(given.white)},
+                        name);
     }
     return image;
   });
-}
-
-void write_exr(const std::string& path, int width, int height,
-               const std::vector<std::string>& channels, const std::vector<float>& pixels,
-               ExrPixelType type) {
-  if (width < 1 || height < 1 || channels.empty() ||
-      pixels.size() !=
-          static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * channels.size()) {
-    throw std::invalid_argument("An EXR needs width x height x channels values and at least one.");
-  }
-  MemoryWriter stream(path);
-  try {
-    const Imf::PixelType stored = type == ExrPixelType::kHalf ? Imf::HALF : Imf::FLOAT;
-    Imf::Header header(width, height);
-    header.compression() = Imf::ZIP_COMPRESSION;
-    for (const std::string& channel : channels) header.channels().insert(channel, {stored});
-    std::vector<half> halves;
-    std::vector<float> floats;
-    Imf::OutputFile file(stream, header, 0);
-    if (type == ExrPixelType::kHalf) {
-      halves = to_half(pixels);
-      file.setFrameBuffer(interleaved(stored, halves, width, height, channels));
-    } else {
-      floats = pixels;
-      file.setFrameBuffer(interleaved(stored, floats, width, height, channels));
-    }
-    file.writePixels(height);
-  } catch (const std::exception& error) {
-    throw ImageError(path, "cannot be encoded (" + one_line(error.what()) + ")");
-  }
-  write_file_atomically(path, stream.bytes());
 }
 
 }  // namespace lobelight

@@ -24,7 +24,7 @@ std::vector<std::string> exr_layers(const std::vector<std::uint8_t>& bytes,
 // subsampled colours, cube maps, absurd sizes, files without such channels) throws ImageError, as
 // do damaged files. `name` stands for the file in messages.
 Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& name,
-                    const std::string& layer = "");
+                    const std::string& layer = "", std::int64_t max_side = kMaxPanoramaSide);
 
 enum class ExrPixelType { kHalf, kFloat };
 

@@ -12,7 +12,7 @@ struct ExrLayer {
   enum class Kind {
     colour,            // any of R, G, B; those that are missing are 0
     grey,              // Y alone
-    luminance_chroma,  // Y, RY, BY, the latter two with half the columns and rows
+    luminance_chroma,  // Y, RY, BY, the latter two often with half the columns and rows
   };
   int part = 0;
   // The layer's name, behind "PART:" in files of several parts (the part alone stands for its
@@ -24,7 +24,9 @@ struct ExrLayer {
 };
 
 // The colours of a file with these headers: part by part, plain channels before layers, layers by
-// their names. Deep parts have none. A layer "light.diffuse" has channels "light.diffuse.R", ….
+// their names. Deep parts have none. A layer "light.diffuse" has channels "light.diffuse.R", …. All
+// three of r, g, b and of red, green, blue are colours too, in capitals or not. A Y beside an X is
+// a coordinate and no luminance.
 std::vector<ExrLayer> find_layers(const std::vector<Imf::Header>& parts);
 
 // The layer of that label, or the first one for an empty label. Throws ImageError, with `name` for

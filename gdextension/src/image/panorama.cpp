@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/common.hpp>
+#include <limits>
 
 #include "base/pi.h"
 #include "image/exr.h"
@@ -13,9 +15,25 @@
 namespace lobelight {
 namespace {
 
-bool is_light(float value) { return value >= 0.0f && std::isfinite(value); }
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-double light(float value) { return is_light(value) ? static_cast<double>(value) : 0.0; }
+// NaN counts as 0 here too.
+double light(float value) {
+  return value > 0.0f ? static_cast<double>(value == kInfinity ? kLargestHalf : value) : 0.0;
+}
+
+// "1 texel was", "2 texels were" and the like.
+std::string texels(std::size_t count, const char* one, const char* many) {
+  return count == 1 ? std::string("1 texel ") + one : std::to_string(count) + " texels " + many;
+}
+
+// "12.3 %", never "0.0 %".
+std::string percent(double share) {
+  if (share < 0.001) return "less than 0.1 %";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %%", 100.0 * share);
+  return text;
+}
 
 }  // namespace
 
@@ -61,21 +79,96 @@ glm::dvec3 Panorama::sample(const glm::dvec3& direction) const {
 }
 
 std::size_t Panorama::sanitise() {
-  std::size_t changed = 0;
+  float brightest = kLargestHalf;
+  for (const float value : rgb) {
+    if (value > brightest && value != kInfinity) brightest = value;
+  }
+  std::size_t changed = 0, negative = 0, no_number = 0, infinite = 0;
   for (std::size_t texel = 0; texel + 2 < rgb.size(); texel += 3) {
-    bool touched = false;
+    bool is_negative = false, is_no_number = false, is_infinite = false;
     for (std::size_t channel = 0; channel < 3; ++channel) {
       float& value = rgb[texel + channel];
-      if (is_light(value)) continue;
-      value = 0.0f;
-      touched = true;
+      if (value >= 0.0f && value != kInfinity) continue;
+      is_infinite = is_infinite || value == kInfinity;
+      is_negative = is_negative || value < 0.0f;
+      is_no_number = is_no_number || std::isnan(value);
+      value = value == kInfinity ? brightest : 0.0f;
     }
-    changed += touched ? 1 : 0;
+    negative += is_negative ? 1 : 0;
+    no_number += is_no_number ? 1 : 0;
+    infinite += is_infinite ? 1 : 0;
+    changed += is_negative || is_no_number || is_infinite ? 1 : 0;
+  }
+  if (negative > 0) {
+    notes.push_back("has " + texels(negative, "with a negative channel, which is 0 now",
+                                    "with negative channels, which are 0 now"));
+  }
+  if (no_number > 0) {
+    notes.push_back("has " + texels(no_number, "with a channel that is no number and is 0 now",
+                                    "with channels that are no numbers and are 0 now"));
+  }
+  if (infinite > 0) {
+    char value[32];
+    std::snprintf(value, sizeof value, "%.6g", static_cast<double>(brightest));
+    warnings.push_back(
+        "has " + texels(infinite, "that is infinite and has ", "that are infinite and have ") +
+        value + " now; how bright the light was there, the file does not say");
   }
   return changed;
 }
 
-void check_panorama_size(std::int64_t width, std::int64_t height, const std::string& name) {
+std::size_t Panorama::expose(double exposure) {
+  const double factor = std::exp2(exposure);
+  std::size_t capped = 0;
+  double all = 0.0, lost = 0.0, brightest = 0.0;
+  std::size_t at = 0;
+  for (int row = 0; row < height; ++row) {
+    // As much of the sphere as each texel of the row covers, but for a factor.
+    const double weight = std::sin(kPi * (row + 0.5) / height);
+    for (int column = 0; column < width; ++column) {
+      bool is_capped = false;
+      for (int channel = 0; channel < 3; ++channel, ++at) {
+        const double value = factor * static_cast<double>(rgb[at]);
+        const double kept = std::min(value, static_cast<double>(kLargestHalf));
+        all += weight * value;
+        lost += weight * (value - kept);
+        brightest = std::max(brightest, value);
+        is_capped = is_capped || value > kept;
+        rgb[at] = static_cast<float>(kept);
+      }
+      capped += is_capped ? 1 : 0;
+    }
+  }
+  if (capped > 0) {
+    const double needed = exposure - std::log2(brightest / static_cast<double>(kLargestHalf));
+    char hint[64];
+    // Rounded towards what keeps everything.
+    std::snprintf(hint, sizeof hint, "an Exposure of %.1f EV", std::floor(10.0 * needed) / 10.0);
+    warnings.push_back("has " +
+                       texels(capped, "that is brighter than 65504 and has",
+                              "that are brighter than 65504 and have") +
+                       " that now: " + percent(lost / all) + " of the light is lost; " + hint +
+                       " keeps it");
+  }
+  return capped;
+}
+
+void check_proportions(Panorama& panorama) {
+  const std::int64_t width = panorama.width, height = panorama.height;
+  // A row or a percent more or less is somebody's rounding.
+  if (std::abs(width - 2 * height) <= std::max<std::int64_t>(2, width / 100)) return;
+  std::string looks;
+  if (width == height) looks = "; a square is a light probe or one face of a cube";
+  if (3 * height == 4 * width || 3 * width == 4 * height) looks = "; this may be a cross of a cube";
+  if (height == 6 * width || width == 6 * height) looks = "; this may be the faces of a cube";
+  panorama.warnings.push_back("is " + std::to_string(width) + " x " + std::to_string(height) +
+                              " texels, but a panorama (latitude-longitude, 360 x 180 degrees) is "
+                              "twice as wide as high" +
+                              looks);
+}
+
+void check_panorama_size(std::int64_t width, std::int64_t height, const std::string& name,
+                         std::int64_t max_side) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height);
   if (width < 1 || height < 1) throw ImageError(name, "has no pixels (" + size + ")");
   if (width > kMaxPanoramaSide || height > kMaxPanoramaSide ||
@@ -84,21 +177,31 @@ void check_panorama_size(std::int64_t width, std::int64_t height, const std::str
                                std::to_string(kMaxPanoramaSide) + " along a side and " +
                                std::to_string(kMaxPanoramaTexels) + " in all");
   }
+  if (width > max_side || height > max_side) {
+    throw ImageError(name, "has " + size + " texels, but a texture holds " +
+                               std::to_string(max_side) + " along a side; make it smaller");
+  }
 }
 
 Panorama decode_panorama(const std::vector<std::uint8_t>& bytes, const std::string& name,
-                         const std::string& layer) {
+                         const std::string& layer, std::int64_t max_side) {
   if (bytes.empty()) throw ImageError(name, "is empty");
-  if (looks_like_exr(bytes)) return decode_exr(bytes, name, layer);
-  if (!looks_like_radiance_hdr(bytes)) {
-    throw ImageError(name, "is neither an OpenEXR nor a Radiance (.hdr) picture");
+  Panorama panorama;
+  if (looks_like_exr(bytes)) {
+    panorama = decode_exr(bytes, name, layer, max_side);
+  } else {
+    if (!looks_like_radiance_hdr(bytes)) {
+      throw ImageError(name, "is neither an OpenEXR nor a Radiance (.hdr) picture");
+    }
+    if (!layer.empty()) throw ImageError(name, "is a Radiance picture, which has no layers");
+    panorama = decode_radiance_hdr(bytes, name, max_side);
   }
-  if (!layer.empty()) throw ImageError(name, "is a Radiance picture, which has no layers");
-  return decode_radiance_hdr(bytes, name);
+  check_proportions(panorama);
+  return panorama;
 }
 
-Panorama load_panorama(const std::string& path, const std::string& layer) {
-  return decode_panorama(read_file(path), path, layer);
+Panorama load_panorama(const std::string& path, const std::string& layer, std::int64_t max_side) {
+  return decode_panorama(read_file(path), path, layer, max_side);
 }
 
 std::vector<std::string> panorama_layers(const std::string& path) {

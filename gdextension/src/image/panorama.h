@@ -13,19 +13,36 @@ namespace lobelight {
 inline constexpr std::int64_t kMaxPanoramaTexels = std::int64_t{1} << 28;
 inline constexpr std::int64_t kMaxPanoramaSide = 65536;
 
+// What graphics cards take as a texture, along a side.
+inline constexpr std::int64_t kMaxTextureSide = 16384;
+
+// The largest half float: more light than that no texture of halves holds.
+inline constexpr float kLargestHalf = 65504.0f;
+
 // A latitude-longitude map of linear radiance.
 struct Panorama {
   int width = 0;           // Texels around the vertical axis.
   int height = 0;          // Texels from straight up (row 0) to straight down.
   std::vector<float> rgb;  // width · height · 3 values, row by row, as the file holds them.
 
+  // What its reader has to say of it: each a predicate that begins in the small ("was converted
+  // from CIE XYZ to Rec. 709"), to be put behind the file's name. Warnings are for what will
+  // hardly look as it should.
+  std::vector<std::string> notes = {};
+  std::vector<std::string> warnings = {};
+
   // Radiance from `direction` (a unit vector, y up): bilinear, texel centres at (i + ½)/width and
-  // (j + ½)/height, wrapped around the axis, clamped at the poles. A negative or non-finite value
-  // counts as 0. The panorama must not be empty.
+  // (j + ½)/height, wrapped around the axis, clamped at the poles. Values count as sanitise() makes
+  // them, an infinite one as 65504. The panorama must not be empty.
   glm::dvec3 sample(const glm::dvec3& direction) const;
 
-  // Sets the negative and the non-finite values to 0. Returns how many texels had one.
+  // Sets negative values and NaN to 0, and infinite ones, which overflowed, to the largest finite
+  // value or 65504, whichever is more. Returns how many texels had one, and notes it.
   std::size_t sanitise();
+
+  // Multiplies a sanitised panorama by 2^`exposure` and caps it at 65504. Returns how many texels
+  // were capped, and warns of the light that goes.
+  std::size_t expose(double exposure);
 };
 
 // Position of `direction` (a unit vector) on a panorama, as Godot's PanoramaSkyMaterial has it:
@@ -35,17 +52,23 @@ glm::dvec2 panorama_position(const glm::dvec3& direction);
 // The unit vector at (u, v), the inverse of panorama_position.
 glm::dvec3 panorama_direction(const glm::dvec2& position);
 
+// Warns of a picture that is not twice as wide as high: it is hardly a panorama.
+void check_proportions(Panorama& panorama);
+
 // Throws ImageError (with `name` for the file) unless the size is at least 1 × 1 and within the
-// limits above.
-void check_panorama_size(std::int64_t width, std::int64_t height, const std::string& name);
+// limits above and that of the caller.
+void check_panorama_size(std::int64_t width, std::int64_t height, const std::string& name,
+                         std::int64_t max_side = kMaxPanoramaSide);
 
 // Reads an OpenEXR or a Radiance (.hdr) file; its content says which, not its name.
-// `path` is UTF-8; `layer` as for decode_exr(), Radiance files have none. Throws ImageError.
-Panorama load_panorama(const std::string& path, const std::string& layer = "");
+// `path` is UTF-8; `layer` as for decode_exr(), Radiance files have none. Pictures with more than
+// `max_side` texels along a side are refused before they are decoded. Throws ImageError.
+Panorama load_panorama(const std::string& path, const std::string& layer = "",
+                       std::int64_t max_side = kMaxPanoramaSide);
 
 // The same for a file that is already in memory; `name` stands for it in messages.
 Panorama decode_panorama(const std::vector<std::uint8_t>& bytes, const std::string& name,
-                         const std::string& layer = "");
+                         const std::string& layer = "", std::int64_t max_side = kMaxPanoramaSide);
 
 // The layers of such a file; "" alone for a Radiance file. Throws ImageError.
 std::vector<std::string> panorama_layers(const std::string& path);

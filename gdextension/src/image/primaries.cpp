@@ -1,10 +1,23 @@
 #include "image/primaries.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
+
+#include "image/image_error.h"
 
 namespace lobelight {
 namespace {
+
+// Rounded chromaticities of Rec. 709, and those that ICC profiles of sRGB state for D50, give a
+// conversion that differs from the identity by less than this.
+constexpr double kSameColours = 0.005;
+
+// Chromaticities are stored as floats or with three decimals.
+constexpr double kSameChromaticity = 1e-3;
 
 // XYZ of a chromaticity with Y = 1.
 glm::dvec3 xyz(const glm::dvec2& c) { return {c.x / c.y, 1.0, (1.0 - c.x - c.y) / c.y}; }
@@ -31,11 +44,27 @@ glm::dmat3 adaptation(const glm::dvec2& from, const glm::dvec2& to) {
   return glm::inverse(kBradford) * scaled * kBradford;
 }
 
+bool are_cie_xyz(const Primaries& primaries) {
+  return glm::length(primaries.red - kCieXyz.red) < kSameChromaticity &&
+         glm::length(primaries.green - kCieXyz.green) < kSameChromaticity &&
+         glm::length(primaries.blue - kCieXyz.blue) < kSameChromaticity;
+}
+
+bool is_identity(const glm::dmat3& matrix) {
+  double difference = 0.0;
+  for (int column = 0; column < 3; ++column) {
+    const glm::dvec3 deviation = glm::abs(matrix[column] - glm::dmat3(1.0)[column]);
+    difference = std::max({difference, deviation.x, deviation.y, deviation.z});
+  }
+  return difference < kSameColours;
+}
+
 }  // namespace
 
 std::optional<glm::dmat3> conversion_to_rec709(const Primaries& primaries) {
-  const glm::dmat3 matrix = glm::inverse(to_xyz(kRec709)) *
-                            adaptation(primaries.white, kRec709.white) * to_xyz(primaries);
+  const glm::dmat3 adapted =
+      are_cie_xyz(primaries) ? glm::dmat3(1.0) : adaptation(primaries.white, kRec709.white);
+  const glm::dmat3 matrix = glm::inverse(to_xyz(kRec709)) * adapted * to_xyz(primaries);
   for (int column = 0; column < 3; ++column) {
     for (int row = 0; row < 3; ++row) {
       // Real spaces stay within a few units; nearly singular ones run away.
@@ -43,6 +72,27 @@ std::optional<glm::dmat3> conversion_to_rec709(const Primaries& primaries) {
     }
   }
   return matrix;
+}
+
+void convert_to_rec709(Panorama& image, const Primaries& primaries, const std::string& name) {
+  const std::optional<glm::dmat3> conversion = conversion_to_rec709(primaries);
+  if (!conversion) throw ImageError(name, "has primaries that span no colours");
+  if (is_identity(*conversion)) return;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+    float* rgb = &image.rgb[i];
+    glm::dvec3 colour;
+    for (int c = 0; c < 3; ++c) {
+      // Infinity minus infinity would be no number.
+      colour[c] = static_cast<double>(rgb[c] == kInfinity ? kLargestHalf : rgb[c]);
+    }
+    const glm::vec3 converted(*conversion * colour);
+    for (int c = 0; c < 3; ++c) {
+      if (rgb[c] != kInfinity) rgb[c] = converted[c];
+    }
+  }
+  image.notes.push_back(std::string("was converted from ") +
+                        (are_cie_xyz(primaries) ? "CIE XYZ" : "other primaries") + " to Rec. 709");
 }
 
 }  // namespace lobelight

@@ -11,9 +11,11 @@ namespace lobelight {
 // Whether `bytes` begin as a Radiance picture does ("#?").
 bool looks_like_radiance_hdr(const std::vector<std::uint8_t>& bytes);
 
-// Decodes a Radiance picture (RGBE; flat, old or new run-length coding; orientation "-Y H +X W").
-// Throws ImageError for XYZE, other orientations and damaged files. `name` stands for the file in
-// messages.
-Panorama decode_radiance_hdr(const std::vector<std::uint8_t>& bytes, const std::string& name);
+// Decodes a Radiance picture: RGBE or XYZE; flat, old or new run-length coding; in any of the eight
+// orientations. XYZE, and RGBE with PRIMARIES, become Rec. 709; what else of the header matters is
+// left aside, as the engine's own loader does, and named in the result's notes. Throws ImageError,
+// with `name` for the file.
+Panorama decode_radiance_hdr(const std::vector<std::uint8_t>& bytes, const std::string& name,
+                             std::int64_t max_side = kMaxPanoramaSide);
 
 }  // namespace lobelight

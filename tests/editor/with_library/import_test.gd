@@ -114,11 +114,51 @@ func test_layers_are_offered_in_the_import_dock() -> void:
 	assert_bool(visible.call("numbers.exr")).is_false()
 
 
-func test_what_was_changed_is_said() -> void:
-	assert_str(PanoramaImporter.describe_changes({"clamped": 0, "capped": 0})).is_empty()
-	var text := PanoramaImporter.describe_changes({"clamped": 2, "capped": 31})
-	assert_str(text).contains("2 texels were negative or not finite")
-	assert_str(text).contains("31 texels were brighter than 65504")
+func test_what_will_hardly_look_right_is_a_warning() -> void:
+	var importer := PanoramaImporter.new()
+	var options := {"layer": "", "exposure": 0.0, "mipmaps": false}
+	var import := func() -> void:
+		var path := FILES.path_join("square.exr")
+		assert_int(importer._import(path, "user://square", options, [], [])).is_equal(OK)
+	var warning: String = (
+		PanoramaImporter.read_file(FILES.path_join("square.exr"), options)["warnings"][0]
+	)
+	assert_str(warning).contains("is 8 x 8 texels, but a panorama")
+	await assert_error(import).is_push_warning("res://data/square.exr: %s." % warning)
+	DirAccess.remove_absolute("user://square.res")
+
+
+# Of the textures, pixels change with a renderer only: tests/render/held_panorama_test.gd.
+func test_what_is_imported_anew_is_what_is_loaded() -> void:
+	var path := _reimport("parts.exr", PanoramaImporter.NAME, {"layer": "left"})
+	var held := load(path) as ImageTexture
+	assert_float(held.get_image().get_pixel(0, 0).r).is_equal(2.0)
+	var changes: Array[bool] = []
+	held.changed.connect(func() -> void: changes.append(true))
+	for case: Array in [["right", 1.0, 8.0], ["left", 0.0, 2.0]]:
+		changes.clear()
+		_reimport("parts.exr", PanoramaImporter.NAME, {"layer": case[0], "exposure": case[1]})
+		assert_array(changes).is_not_empty()
+		var loaded := load(path) as ImageTexture
+		assert_str(loaded.resource_path).is_equal(path)
+		assert_float(loaded.get_image().get_pixel(0, 0).r).is_equal(case[2])
+		held = loaded
+		held.changed.connect(func() -> void: changes.append(true))
+
+
+func test_a_failed_import_keeps_the_texture() -> void:
+	var path := _reimport("parts.exr", PanoramaImporter.NAME, {"layer": "left"})
+	var held := load(path) as ImageTexture
+	var importer := PanoramaImporter.new()
+	var options := {"layer": "middle", "exposure": 0.0, "mipmaps": false}
+	var import := func() -> void:
+		assert_int(importer._import(path, "user://bad", options, [], [])).is_not_equal(OK)
+	await assert_error(import).is_push_error(
+		path + ": has no layer 'middle'; its layers are left, right"
+	)
+	importer.on_reimported([path])
+	assert_object(load(path)).is_same(held)
+	assert_float(held.get_image().get_pixel(0, 0).r).is_equal(2.0)
 
 
 func test_the_engine_keeps_its_own_importer_by_default() -> void:

@@ -2,13 +2,19 @@
 extends "native_importer.gd"
 ## Imports environment maps through OpenEXR, for files that the engine's own importer refuses or
 ## misreads: every compression, halves, floats and whole numbers, some of R, G and B, luminance with
-## or without chroma, other primaries, data and display windows, parts and layers. The result is an
-## [ImageTexture] of linear half floats, for [member LobeEnvironment3D.panorama] and
-## [member PanoramaSkyMaterial.panorama].
+## or without chroma, other primaries, data and display windows, parts and layers, Radiance files of
+## any orientation. The result is an [ImageTexture] of linear half floats, for
+## [member LobeEnvironment3D.panorama] and [member PanoramaSkyMaterial.panorama]. What became of
+## values that halves do not hold, and what the file's header asks for in vain, is said in the
+## output.
 ## [br][br]
 ## It is chosen in the import dock; the engine's importer stays the one that files get by default.
 
+const HeldPanoramas := preload("held_panoramas.gd")
+
 const NAME := "lobelight.panorama"
+
+var _held := HeldPanoramas.new()
 
 
 func _get_importer_name() -> String:
@@ -61,23 +67,31 @@ func _import(
 	_platform_variants: Array[String],
 	_generated: Array[String]
 ) -> Error:
+	_held.begin(source)
 	var read := read_file(source, options)
 	if read.has("error"):
 		push_error(read["error"])
 		return ERR_FILE_CORRUPT
-	var report := describe_changes(read)
-	if report:
-		print("%s: %s" % [source, report])
+	for note: String in read["notes"]:
+		print("%s: %s." % [source, note])
+	for warning: String in read["warnings"]:
+		push_warning("%s: %s." % [source, warning])
 	var width: int = read["width"]
 	var height: int = read["height"]
 	var data: PackedByteArray = read["data"]
 	var image := Image.create_from_data(width, height, false, Image.FORMAT_RGBAH, data)
 	if options["mipmaps"]:
 		image.generate_mipmaps()
+	_held.set_image(source, image)
 	var texture := ImageTexture.create_from_image(image)
 	return ResourceSaver.save(
 		texture, "%s.%s" % [save_path, _get_save_extension()], ResourceSaver.FLAG_COMPRESS
 	)
+
+
+## To be called when the engine has reloaded what it imported anew.
+func on_reimported(paths: PackedStringArray) -> void:
+	_held.end(paths)
 
 
 ## What [method LobeImageFile.load_half_panorama] makes of a file, or its [code]"error"[/code], a
@@ -107,13 +121,3 @@ static func list_layers(path: String) -> PackedStringArray:
 		if not layer.is_empty() and not layer.contains(","):
 			names.append(layer)
 	return names
-
-
-## What the import has changed, in words; empty if nothing.
-static func describe_changes(read: Dictionary) -> String:
-	var changes: PackedStringArray = []
-	if read["clamped"] > 0:
-		changes.append("%d texels were negative or not finite and are black" % read["clamped"])
-	if read["capped"] > 0:
-		changes.append("%d texels were brighter than 65504 and have that" % read["capped"])
-	return ", ".join(changes)
