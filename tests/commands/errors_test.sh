@@ -135,6 +135,12 @@ refuses "demo, an unknown option" "--colour" demo --colour red
 refuses "demo, an environment that does not exist" "--env" demo --env 17
 refuses "demo, an unknown renderer" "vulkan9" demo --renderer vulkan9
 refuses "test, an unknown group" "no-such-group" test no-such-group
+refuses "test, two groups as one" "lint harness" test "lint harness"
+refuses "test, an unknown sanitizer" "must be one of address undefined thread" test --sanitize nonsense
+refuses "test, no sanitizer" "must be one of address undefined thread" test --sanitize
+refuses "test, two sanitizers as one" "address undefined" test --sanitize "address undefined"
+refuses "test, a group that is not sanitized" "not 'render'" test --sanitize address render
+refuses "test, the engine under the thread sanitizer" "not 'native'" test --sanitize thread native
 refuses "stability, an unknown option" "--colour" stability --colour red
 refuses "stability, an unknown group" "no-such-group" stability --group no-such-group
 refuses "stability, JSON in a missing folder" "missing/cases.json" stability --quick --json missing/cases.json

@@ -45,7 +45,7 @@ while (($# > 0)); do
       seed=$2
       ;;
     --reader)
-      [[ " ${known[*]} " == *" $2 "* ]] || die "fuzz: there is no reader '$2'; the readers are ${known[*]}"
+      is_one_of "$2" "${known[@]}" || die "fuzz: there is no reader '$2'; the readers are ${known[*]}"
       readers+=("$2")
       ;;
   esac

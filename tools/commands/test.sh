@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers render); [--json FILE]
+# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers render); [--json FILE] [--sanitize KIND]
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/gdunit.sh
 source "$ROOT/tools/lib/gdunit.sh"
@@ -9,16 +9,21 @@ source "$ROOT/tools/lib/demo_tables.sh"
 source "$ROOT/tools/testing/runners.sh"
 # shellcheck source=tools/testing/lanes.sh
 source "$ROOT/tools/testing/lanes.sh"
+# shellcheck source=tools/testing/sanitizers.sh
+source "$ROOT/tools/testing/sanitizers.sh"
 
 GROUPS_OF_TESTS=(lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers render)
 
 usage() {
   cat <<USAGE
 usage: ./dev test [GROUP…] [--json FILE]
+       ./dev test --sanitize address|undefined|thread [cpp] [native] [--json FILE]
 
 Groups, all of them if none is named: ${GROUPS_OF_TESTS[*]}
 What they need is made first, once. Then they run side by side, as many at once as there are cores, up to 4; each one's output
 is shown when it has ended, and says how long it took. LOBELIGHT_JOBS=1 runs one after another.
+With --sanitize the C++ tests run under one of g++'s sanitizers; with address also the native suites, the library in
+the engine. They are built in build/cmake-KIND.
 The last line is "N passed, N failed". Logs and reports are kept in build/test.
 LOBELIGHT_RENDERERS="mobile …" limits the rendered suites to these renderers.
 USAGE
@@ -26,6 +31,7 @@ USAGE
 
 groups=()
 total_options=()
+sanitizer=""
 while (($# > 0)); do
   case $1 in
     -h | --help)
@@ -38,18 +44,30 @@ while (($# > 0)); do
       total_options=(--json "$2")
       shift
       ;;
+    --sanitize)
+      is_one_of "${2:-}" "${SANITIZERS[@]}" \
+        || die "test: --sanitize is '${2:-}', but must be one of ${SANITIZERS[*]}"
+      sanitizer=$2
+      shift
+      ;;
     *)
-      [[ " ${GROUPS_OF_TESTS[*]} " == *" $1 "* ]] \
+      is_one_of "$1" "${GROUPS_OF_TESTS[@]}" \
         || die "test: there is no group '$1'; the groups are ${GROUPS_OF_TESTS[*]}"
       groups+=("$1")
       ;;
   esac
   shift
 done
+if [[ -n $sanitizer ]]; then
+  suites=(cpp)
+  [[ $sanitizer != address ]] || suites+=(native)
+  for group in "${groups[@]}"; do
+    is_one_of "$group" "${suites[@]}" \
+      || die "test: --sanitize $sanitizer runs ${suites[*]}, not '$group'"
+  done
+  ((${#groups[@]} > 0)) || groups=("${suites[@]}")
+fi
 ((${#groups[@]} > 0)) || groups=("${GROUPS_OF_TESTS[@]}")
-
-mapfile -t runners < <(for group in "${groups[@]}"; do jobs_of "$group"; done | awk '!seen[$0]++')
-mapfile -t runners < <(order_jobs "${runners[@]}")
 
 # Tests draw small pictures with many shaders: what Mesa's compiler spends on optimising them is never earned back. What
 # is drawn stays the same.
@@ -58,13 +76,22 @@ export LOBELIGHT_DRAFT_TABLES=yes
 
 rm -rf "$RESULTS"
 mkdir -p "$RESULTS"
-prepare_tests "${runners[@]}"
-if ((${#runners[@]} > 1 && JOBS > 1)); then
-  run_side_by_side "${runners[@]}"
-else
-  for runner in "${runners[@]}"; do
-    "run_$runner"
+if [[ -n $sanitizer ]]; then
+  prepare_sanitized "${groups[@]}"
+  for group in "${groups[@]}"; do
+    "sanitize_$group" "$sanitizer"
   done
+else
+  mapfile -t runners < <(for group in "${groups[@]}"; do jobs_of "$group"; done | awk '!seen[$0]++')
+  mapfile -t runners < <(order_jobs "${runners[@]}")
+  prepare_tests "${runners[@]}"
+  if ((${#runners[@]} > 1 && JOBS > 1)); then
+    run_side_by_side "${runners[@]}"
+  else
+    for runner in "${runners[@]}"; do
+      "run_$runner"
+    done
+  fi
 fi
 mapfile -t outcomes < <(find "$RESULTS" -maxdepth 1 -name '*.json' -printf '%T@ %p\n' | sort -n | cut -d' ' -f2-)
 "$PYTHON" "$ROOT/tools/testing/results.py" total "${outcomes[@]}" "${total_options[@]}"

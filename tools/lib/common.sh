@@ -24,6 +24,16 @@ die() {
   exit 1
 }
 
+# is_one_of VALUE WORD…: whether VALUE is one of the words.
+is_one_of() {
+  local value=$1 word
+  shift
+  for word in "$@"; do
+    [[ $value != "$word" ]] || return 0
+  done
+  return 1
+}
+
 # help_if_asked ARGUMENT…: usage() and the end, if one of them asks for help.
 help_if_asked() {
   local argument
