@@ -10,7 +10,7 @@ THREADED='*base_*,*fit_table_fitter*,*fit_roughness*,*fit_refinement*,*brdf_meas
 prepare_sanitized() {
   need_python
   if is_one_of native "$@"; then
-    need_engine
+    need_interface
     need_gdunit
   fi
 }
@@ -32,8 +32,7 @@ need_sanitized() {
 build_sanitized() {
   local kind=$1
   shift
-  cd "$ROOT/gdextension" || return
-  cmake --preset "$kind" -DLOBELIGHT_DEPS_DIR="$OPENEXR_DIR"
+  configure_native "$ROOT/build/cmake-$kind" --preset "$kind" -DCMAKE_BUILD_TYPE=Debug
   cmake --build "$ROOT/build/cmake-$kind" --target "$@" --parallel "$JOBS"
 }
 
@@ -65,7 +64,7 @@ sanitize_native() {
     ASAN_OPTIONS=detect_leaks=0:verify_asan_link_order=0 "$GODOT" --headless --path "$project")
   make_native_project "$project" "$build"
   step "Importing the native suites' project" "${engine[@]}" --import
-  run_logged native-address in_time "${engine[@]}" -s "$GDUNIT_TOOL" --ignoreHeadlessMode \
+  XDG_DATA_HOME=$project/user run_logged native-address in_time "${engine[@]}" -s "$GDUNIT_TOOL" --ignoreHeadlessMode \
     -a res://tests/native -c -rd res://report
   local reports=("$project"/report/report_*/results.xml)
   judge native-address --engine --junit "${reports[0]}"
@@ -75,7 +74,8 @@ sanitize_native() {
 make_native_project() {
   local project=$1 part
   rm -rf "$project"
-  mkdir -p "$project/addons" "$project/tests" "$project/.godot"
+  mkdir -p "$project/addons" "$project/tests" "$project/.godot" "$project/user"
+  touch "$project/user/.gdignore"
   for part in addons/lobelight addons/gdUnit4 tests/native tests/data; do
     cp -r "$ROOT/$part" "$project/$part"
   done
