@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "base/pi.h"
 #include "brdf/ggx.h"
@@ -109,6 +110,31 @@ TEST_CASE("Lobes far from every node and lobes without weight stay finite") {
   for (const glm::dvec3& weight : channel_weights(made.slice, dark, kLobes)) {
     CHECK(weight == glm::dvec3(0.0));
   }
+}
+
+TEST_CASE("Channels that share no lobe keep all of their light") {
+  // Neither lobe's density is a number at the other's node.
+  const std::vector<glm::dvec3> nodes = {{1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+  for (const double far : {-1000.0, -std::numeric_limits<double>::infinity()}) {
+    const auto found = channel_weights(nodes, {0.0, far, far, 0.0}, {0.5, 0.5});
+    CHECK(found[0] == glm::dvec3(1.0, 0.0, 0.0));
+    CHECK(found[1] == glm::dvec3(0.0, 0.0, 1.0));
+  }
+  // A node that no lobe reaches, and one whose light is next to none.
+  const double nowhere = -std::numeric_limits<double>::infinity();
+  const auto found = channel_weights({{1.0, 0.0, 1.0}, {1.0, 1e-310, 1.0}, {1e-310, 1.0, 0.0}},
+                                     {0.0, nowhere, 0.0, -1000.0, nowhere, -2000.0}, {1.0, 0.0});
+  glm::dvec3 sum(0.0);
+  for (const glm::dvec3& weight : found) {
+    for (int channel = 0; channel < 3; ++channel) {
+      CHECK(std::isfinite(weight[channel]));
+      CHECK(weight[channel] >= 0.0);
+    }
+    sum += weight;
+  }
+  CHECK(sum.x == doctest::Approx(2.0));
+  CHECK(sum.y == doctest::Approx(1.0));
+  CHECK(sum.z == doctest::Approx(2.0));
 }
 
 }  // namespace

@@ -192,6 +192,26 @@ func test_files_give_back_the_set() -> void:
 	DirAccess.remove_absolute(path)
 
 
+func test_numbers_that_are_not_finite_are_refused() -> void:
+	var data := _make_set().image.get_data()
+	data.encode_u16(10, 0x7E00)
+	var result := {
+		"brdf": "test",
+		"widths": WIDTHS,
+		"lobes": LOBES,
+		"views": VIEWS,
+		"width": VIEWS.x,
+		"height": LOBES * (6 * VIEWS.y + 3),
+		"data": data,
+	}
+	var call_it := func() -> void: LobeTableSet.from_baked(result)
+	await assert_error(call_it).is_push_error(
+		"LobeTableSet.from_baked: numbers that are not finite: 1 of 648."
+	)
+	result["data"] = _make_set().image.get_data()
+	assert_object(LobeTableSet.from_baked(result)).is_not_null()
+
+
 func test_from_baked_names_what_is_missing() -> void:
 	var result := {"brdf": "ward", "widths": [0.1, 0.2], "lobes": 1, "views": Vector2i(2, 2)}
 	var call_it := func() -> void: LobeTableSet.from_baked(result)

@@ -56,6 +56,25 @@ func test_views_may_be_floats() -> void:
 	assert_vector(table.views).is_equal(Vector2i(4, 3))
 
 
+func test_numbers_that_are_not_finite_are_refused() -> void:
+	# Half floats: infinity, minus infinity and two that are no number. 0x7BFF is the largest one.
+	for bits: int in [0x7C00, 0xFC00, 0x7C01, 0xFE00, 0x7BFF]:
+		var data := PackedByteArray()
+		data.resize(4 * 2 * 3 * 8)
+		data.encode_u16(2 * 17, bits)
+		data.encode_u16(2 * 95, bits)
+		var made: Array[LobeTable] = [null]
+		var call_it := func() -> void: made[0] = LobeTable.from_baked(_baked({"data": data}))
+		if bits == 0x7BFF:
+			await assert_error(call_it).is_success()
+			assert_object(made[0]).is_not_null()
+			continue
+		await assert_error(call_it).is_push_error(
+			"LobeTable.from_baked: numbers that are not finite: 2 of 96."
+		)
+		assert_object(made[0]).is_null()
+
+
 func test_problems_are_named() -> void:
 	var table := _make_table(2, Vector2i(4, 3), Vector2(0.1, 0.2))
 	table.lobe_count = 0

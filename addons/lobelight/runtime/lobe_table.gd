@@ -108,10 +108,25 @@ static func image_of_baked(result: Dictionary, caller: String, width_key: String
 			"%s: %d x %d texels of 8 bytes are not %d bytes." % [caller, width, height, data.size()]
 		)
 		return null
+	var broken := _count_broken(data)
+	if broken > 0:
+		push_error(
+			"%s: numbers that are not finite: %d of %d." % [caller, broken, width * height * 4]
+		)
+		return null
 	var baked := Image.create_from_data(width, height, false, Image.FORMAT_RGBAH, data)
 	# Otherwise random: equal results are to be saved as equal bytes.
 	baked.resource_scene_unique_id = "lobes"
 	return baked
+
+
+# Half floats whose exponent has all bits set, infinite or not a number: the high byte says so.
+static func _count_broken(data: PackedByteArray) -> int:
+	var count := 0
+	for i in range(1, data.size(), 2):
+		if data[i] & 0x7C == 0x7C:
+			count += 1
+	return count
 
 
 ## A table of one lobe of weight 1 about the mirror direction, as wide as the lobe of a mirror that

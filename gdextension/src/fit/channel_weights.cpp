@@ -15,6 +15,9 @@ constexpr double kTolerance = 1e-6;
 // Lobes that have no weight start with this share: EM cannot bring back what is 0.
 constexpr double kLeastShare = 1e-9;
 
+// Keeps quotients finite where a node's share of the mass is at the end of what a double holds.
+constexpr double kLeastSum = std::numeric_limits<double>::min();
+
 }  // namespace
 
 std::vector<glm::dvec3> channel_node_weights(const Brdf& brdf, const glm::dvec3& o,
@@ -48,7 +51,9 @@ std::vector<glm::dvec3> channel_weights(const std::vector<glm::dvec3>& node_weig
       largest = std::max(largest, log_densities[k * nodes + n]);
     }
     for (std::size_t k = 0; k < lobes; ++k) {
-      density[k * nodes + n] = std::exp(log_densities[k * nodes + n] - largest);
+      // Where every density is 0, all lobes are equally far.
+      const double difference = log_densities[k * nodes + n] - largest;
+      density[k * nodes + n] = std::isfinite(largest) ? std::exp(difference) : 1.0;
     }
   }
 
@@ -66,7 +71,11 @@ std::vector<glm::dvec3> channel_weights(const std::vector<glm::dvec3>& node_weig
         for (std::size_t n = 0; n < nodes; ++n) quotient[n] += share[k] * density[k * nodes + n];
       }
       for (std::size_t n = 0; n < nodes; ++n) {
-        quotient[n] = node_weights[n][channel] / (mass[channel] * quotient[n]);
+        // The share of a lobe that has no node in this channel ends as 0, and so does the sum at
+        // nodes that only it reaches, where the channel is black.
+        const double weight = node_weights[n][channel];
+        quotient[n] =
+            weight > 0.0 ? weight / std::max(mass[channel] * quotient[n], kLeastSum) : 0.0;
       }
       double moved = 0.0;
       double total = 0.0;

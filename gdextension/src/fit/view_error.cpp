@@ -1,6 +1,5 @@
 #include "fit/view_error.h"
 
-#include <algorithm>
 #include <atomic>
 
 #include "base/parallel.h"
@@ -18,15 +17,19 @@ constexpr double kRotation = 0.5;
 
 double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture) {
   const Slice slice = sample_slice(brdf, o, kNodesPerAxis, kRotation);
-  const double scale = slice.albedo / total_weight(mixture);
+  const double weight = total_weight(mixture);
+  if (weight == 0.0) return slice.albedo > 0.0 ? 2.0 : 0.0;
+  if (slice.albedo == 0.0) return 0.0 * weight;
+  const double scale = slice.albedo / weight;
   double sum = 0.0;
   for (std::size_t n = 0; n < slice.weights.size(); ++n) {
     const glm::dvec3& i = slice.directions[n];
     const double value = brdf.evaluate(i, o) * i.z;
     // Far off the lobe of an extreme material the value underflows.
-    if (value > 0.0) {
-      sum += slice.weights[n] * std::max(0.0, 1.0 - scale * evaluate(mixture, i) / value);
-    }
+    if (!(value > 0.0)) continue;
+    const double missing = 1.0 - scale * evaluate(mixture, i) / value;
+    // Written so that NaN counts.
+    if (!(missing <= 0.0)) sum += slice.weights[n] * missing;
   }
   return 2.0 * sum / slice.albedo;
 }
