@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,9 @@ constexpr std::size_t kAnisotropicRows = 129;
 constexpr double kFloor = 0.02;
 
 constexpr double kColourThreshold = 1e-3;
+
+// Slices whose greatest density is beyond 2^±kMostExponent are scaled.
+constexpr int kMostExponent = 64;
 
 bool ends_with(std::string_view text, std::string_view ending) {
   return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
@@ -214,7 +218,8 @@ void MeasuredBrdf::tabulate_samples(const Progress* progress) {
     const double theta = views_.second()[slice % elevations];
     const glm::dvec3 o(std::sin(theta) * std::cos(azimuth), std::sin(theta) * std::sin(azimuth),
                        std::cos(theta));
-    float* const table = &values[slice * size.values()];
+    // Only the shape of a slice counts; its numbers may be beyond what a float holds.
+    std::vector<double> densities(size.values(), 0.0);
     Sums& sum = sums[slice];
     for (std::size_t row = 0; row < size.rows; ++row) {
       throw_if_cancelled(progress);
@@ -229,7 +234,7 @@ void MeasuredBrdf::tabulate_samples(const Progress* progress) {
         const MirrorImages images = mirror_images(*data_, i, o);
         const glm::dvec3 rgb = images.average();
         const double value = mean(rgb);
-        table[row * size.columns + column] = static_cast<float>(value * area);
+        densities[row * size.columns + column] = value * area;
         sum.light += value * area;
         for (int n = 0; n < images.count; ++n) {
           const double own = mean(images.value[static_cast<std::size_t>(n)]);
@@ -240,6 +245,13 @@ void MeasuredBrdf::tabulate_samples(const Progress* progress) {
         }
       }
     }
+    int exponent = 0;
+    std::frexp(*std::max_element(densities.begin(), densities.end()), &exponent);
+    const int scale = std::abs(exponent) > kMostExponent ? -exponent : 0;
+    float* const table = &values[slice * size.values()];
+    std::transform(densities.begin(), densities.end(), table, [scale](double density) {
+      return static_cast<float>(std::ldexp(density, scale));
+    });
     // Views in a plane of symmetry get tables that are symmetric to the last bit. The rows are
     // periodic: the last one is the first.
     const std::size_t turn = size.rows - 1;

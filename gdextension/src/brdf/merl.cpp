@@ -128,6 +128,7 @@ std::unique_ptr<MeasuredData> read_merl(const std::string& path) {
   std::vector<float> values(3 * kBins);
   std::vector<double> stored(kBins);
   std::size_t clamped = 0;
+  std::size_t too_large = 0;
   bool dark = true;
   for (std::size_t channel = 0; channel < 3; ++channel) {
     file.read(kHeaderBytes + channel * kBins * sizeof(double), stored.data(), kBins, "its numbers");
@@ -137,8 +138,13 @@ std::unique_ptr<MeasuredData> read_merl(const std::string& path) {
       const bool good = value >= 0.0 && value <= std::numeric_limits<float>::max();
       values[channel * kBins + bin] = good ? static_cast<float>(value) : kMissing;
       if (!good) ++clamped;
+      if (!good && value > 0.0 && std::isfinite(value)) ++too_large;
       if (good && value > 0.0) dark = false;
     }
+  }
+  if (dark && too_large > 0) {
+    file.fail("has " + std::to_string(too_large) +
+              " numbers that are too large for a reflectance, and no other positive one");
   }
   if (dark) file.fail("holds no positive number");
   return std::make_unique<Merl>(std::move(values), clamped);

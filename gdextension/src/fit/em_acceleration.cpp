@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "fit/symmetric_eigen.h"
+
 namespace lobelight {
 
 namespace {
@@ -70,46 +72,6 @@ Vector product(const Vector& a, const Vector& b) {
   return c;
 }
 
-constexpr std::size_t kMost = EmAcceleration::kMemory;
-using Small = std::array<std::array<double, kMost>, kMost>;
-
-// Eigenvalues (on the diagonal of `a`) and eigenvectors (columns) of a symmetric matrix by Jacobi's
-// rotations (Golub and Van Loan, Matrix Computations, 8.5).
-void diagonalise(Small& a, Small& vectors, std::size_t size) {
-  vectors = {};
-  for (std::size_t i = 0; i < kMost; ++i) vectors[i][i] = 1.0;
-  constexpr int kSweeps = 12;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (std::size_t p = 0; p < size; ++p) {
-      for (std::size_t q = p + 1; q < size; ++q) {
-        if (std::abs(a[p][q]) <= 1e-15 * (std::abs(a[p][p]) + std::abs(a[q][q]))) continue;
-        const double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-        const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
-        const double c = 1.0 / std::hypot(t, 1.0);
-        const double s = t * c;
-        for (std::size_t i = 0; i < size; ++i) {
-          const double x = a[i][p];
-          const double y = a[i][q];
-          a[i][p] = c * x - s * y;
-          a[i][q] = s * x + c * y;
-        }
-        for (std::size_t i = 0; i < size; ++i) {
-          const double x = a[p][i];
-          const double y = a[q][i];
-          a[p][i] = c * x - s * y;
-          a[q][i] = s * x + c * y;
-        }
-        for (std::size_t i = 0; i < size; ++i) {
-          const double x = vectors[i][p];
-          const double y = vectors[i][q];
-          vectors[i][p] = c * x - s * y;
-          vectors[i][q] = s * x + c * y;
-        }
-      }
-    }
-  }
-}
-
 }  // namespace
 
 Mixture EmAcceleration::propose(const Mixture& before, const Mixture& after) {
@@ -156,17 +118,17 @@ Mixture EmAcceleration::propose(const Mixture& before, const Mixture& after) {
   }
 
   // 1 − EM's Jacobian within the subspace, its symmetric part.
-  Small contraction{};
-  Small vectors{};
+  Matrix3 contraction{};
+  Matrix3 vectors{};
   for (std::size_t i = 0; i < q.size(); ++i) {
     for (std::size_t j = 0; j < q.size(); ++j) {
       contraction[i][j] = -0.5 * (dot(q[i], t[j]) + dot(q[j], t[i]));
     }
   }
-  diagonalise(contraction, vectors, q.size());
+  diagonalise(contraction, vectors, q.size(), 1e-15, 0.0);
 
   const Vector whitened = product(step, metric);
-  std::array<double, kMost> component{};
+  std::array<double, kMemory> component{};
   for (std::size_t i = 0; i < q.size(); ++i) component[i] = dot(q[i], whitened);
   Vector further(step.size(), 0.0);
   for (std::size_t e = 0; e < q.size(); ++e) {

@@ -28,7 +28,7 @@ class EmAcceleration {
   // on with. Weights sum to 1. The first steps are EM's.
   Mixture propose(const Mixture& before, const Mixture& after);
 
-  // Steps that are remembered. Two to four do equally well.
+  // Steps that are remembered, as many as Matrix3 has rows. Two to four do equally well.
   static constexpr std::size_t kMemory = 3;
   // EM's error is taken to shrink by this share per step at least: the bound of how much further
   // than EM's a step may go, 1/0.03.

@@ -1,10 +1,11 @@
 #include "fit/initial_guess.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+
+#include "fit/symmetric_eigen.h"
 
 namespace lobelight {
 
@@ -21,36 +22,22 @@ constexpr double kNegligible = 1e-9;
 // quadrature of a round slice makes neither of them a choice.
 constexpr double kTie = 0.01;
 
-// Unit eigenvector of the largest eigenvalue of a symmetric matrix by Jacobi's rotations (Golub and
-// Van Loan, Matrix Computations, 8.5). Of equally good axes the first wins.
-glm::dvec3 principal_axis(glm::dmat3 a) {
-  glm::dmat3 vectors(1.0);
-  const double trace = a[0][0] + a[1][1] + a[2][2];
-  const double negligible = kNegligible * trace;
+// Unit eigenvector of the largest eigenvalue of a symmetric matrix. Of equally good axes the first
+// wins.
+glm::dvec3 principal_axis(const glm::dmat3& matrix) {
+  const double trace = matrix[0][0] + matrix[1][1] + matrix[2][2];
   const double tie = kTie * trace;
-  constexpr std::array<std::array<int, 2>, 3> kPlanes{{{0, 1}, {0, 2}, {1, 2}}};
-  for (int sweep = 0; sweep < 32; ++sweep) {
-    bool done = true;
-    for (const auto& [p, q] : kPlanes) {
-      if (!(std::abs(a[p][q]) > negligible)) continue;
-      done = false;
-      const double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-      const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
-      const double c = 1.0 / std::hypot(t, 1.0);
-      glm::dmat3 rotation(1.0);
-      rotation[p][p] = rotation[q][q] = c;
-      rotation[p][q] = -t * c;
-      rotation[q][p] = t * c;
-      a = glm::transpose(rotation) * a * rotation;
-      vectors = vectors * rotation;
-    }
-    if (done) break;
+  Matrix3 a{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) a[i][j] = matrix[static_cast<int>(i)][static_cast<int>(j)];
   }
-  int best = 0;
-  for (int i = 1; i < 3; ++i) {
+  Matrix3 vectors{};
+  diagonalise(a, vectors, 3, 0.0, kNegligible * trace);
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
     if (a[i][i] > a[best][best] + tie) best = i;
   }
-  const glm::dvec3 axis = vectors[best];
+  const glm::dvec3 axis(vectors[0][best], vectors[1][best], vectors[2][best]);
   // An eigenvector's sign is free: its largest component is made positive.
   int largest = 0;
   for (int i = 1; i < 3; ++i) {

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "base/parallel.h"
-#include "fit/em.h"
-#include "fit/slice.h"
+#include "fit/continuation.h"
 #include "fit/table_fitter.h"
 #include "table/half_float.h"
 
@@ -70,20 +68,12 @@ class Blend {
   std::vector<LobeTable::Entry> entries_;
 };
 
-LobeTable stored_table(const SetLayout& layout, int lobes, const std::vector<std::uint16_t>& texels,
-                       int table, const glm::dvec2& alpha) {
-  const auto first = texels.begin() + static_cast<std::ptrdiff_t>(layout.offset(table));
-  const auto last = texels.begin() + static_cast<std::ptrdiff_t>(layout.offset(table + 1));
-  return LobeTable::from_rgba16f(alpha, lobes, layout.views(table), {first, last});
-}
-
 // One set on its way.
 class SetFit {
  public:
   SetFit(const SetRecipe& recipe, std::vector<std::uint16_t> texels, Progress& progress)
       : recipe_(recipe), layout_(recipe), texels_(std::move(texels)), progress_(progress) {
     texels_.resize(layout_.total());
-    rotation_ = seed_rotation(recipe.seed);
   }
 
   std::vector<std::uint16_t> run();
@@ -112,17 +102,16 @@ class SetFit {
             recipe_.widths[static_cast<std::size_t>(level.y)]};
   }
   LobeTable stored(int table) const {
-    return stored_table(layout_, recipe_.lobes, texels_, table, alpha(table));
+    const auto first = texels_.begin() + static_cast<std::ptrdiff_t>(layout_.offset(table));
+    const auto last = texels_.begin() + static_cast<std::ptrdiff_t>(layout_.offset(table + 1));
+    return LobeTable::from_rgba16f(alpha(table), recipe_.lobes, layout_.views(table),
+                                   {first, last});
   }
-  // Gives view (t, p) of `table` the lobes that `start` leads to.
-  void fit_view(const Brdf& brdf, LobeTable& table, int t, int p, Mixture start,
-                const std::vector<Mirror>& mirrors, int max_iterations) const;
 
   const SetRecipe& recipe_;
   SetLayout layout_;
   std::vector<std::uint16_t> texels_;
   Progress& progress_;
-  double rotation_ = 0.0;
 };
 
 std::vector<int> SetFit::parents(int table) const {
@@ -145,19 +134,6 @@ std::vector<int> SetFit::parents(int table) const {
   return found;
 }
 
-void SetFit::fit_view(const Brdf& brdf, LobeTable& table, int t, int p, Mixture start,
-                      const std::vector<Mirror>& mirrors, int max_iterations) const {
-  progress_.throw_if_cancelled();
-  lift_above_horizon(start);
-  EmOptions em;
-  em.progress = &progress_;
-  em.longest_step = kContinuationStep;
-  em.max_iterations = std::min(em.max_iterations, max_iterations);
-  em.mirrors = mirrors;
-  const Slice slice = sample_slice(brdf, table.view(t, p), FitOptions().nodes_per_axis, rotation_);
-  table.set_mixture_at_view(t, p, run_em(slice, std::move(start), em).mixture);
-}
-
 std::vector<std::uint16_t> SetFit::fit(int table, Progress& progress) {
   const std::vector<int> from = parents(table);
   const glm::ivec2 views = layout_.views(table);
@@ -175,37 +151,25 @@ std::vector<std::uint16_t> SetFit::fit(int table, Progress& progress) {
   // The first parent says which lobes are mirror images of one another.
   const LobeTable model = stored(from.front());
 
-  LobeTable result(alpha(table), recipe_.lobes, views);
-  const int all = EmOptions().max_iterations;
-  Mixture pole = start.mixture_at_view(0, 0);
-  std::vector<Mirror> pole_mirrors{match_images(pole, 1)};
-  if (views.y > 1) pole_mirrors.push_back(match_images(pole, 0));
-  fit_view(*brdf, result, 0, 0, std::move(pole), pole_mirrors, all);
-
-  for (int p = 0; p < views.y; ++p) {
-    result.set_mixture_at_view(0, p, result.mixture_at_view(0, 0));
-    std::vector<std::vector<Mirror>> mirrors(static_cast<std::size_t>(views.x));
-    for (int t = 1; t < views.x; ++t) {
-      Mixture lobes = start.mixture_at_view(t, p);
-      std::vector<Mirror>& ties = mirrors[static_cast<std::size_t>(t)];
+  const auto starts = [&](int p, const std::vector<Mirror>&) -> NextStart {
+    return [&, p](int t, const Mixture&) {
+      ViewStart view{start.mixture_at_view(t, p), {}};
       if (p == 0) {
-        ties = MovingMirror::recognise(model.mixture_at_view(t, p), 1).mirrors();
+        view.mirrors = MovingMirror::recognise(model.mixture_at_view(t, p), 1).mirrors();
       } else if (p == views.y - 1) {
         MovingMirror mirror = MovingMirror::recognise(model.mixture_at_view(t, p), 0);
-        mirror.advance(lobes);
-        ties = mirror.mirrors();
+        mirror.advance(view.lobes);
+        view.mirrors = mirror.mirrors();
       }
-      fit_view(*brdf, result, t, p, std::move(lobes), ties, all);
-    }
-    // As in the table that all descend from.
-    for (int pass = 0; pass < FitOptions().smoothing_passes; ++pass) {
-      for (const int t : smoothing_order(views.x)) {
-        fit_view(*brdf, result, t, p, result.smoothed_mixture_at_view(t, p),
-                 mirrors[static_cast<std::size_t>(t)], kSmoothingIterations);
-      }
-    }
-    progress.set((p + 1.0) / views.y);
-  }
+      return view;
+    };
+  };
+  LobeTable result(alpha(table), recipe_.lobes, views);
+  Mixture pole = start.mixture_at_view(0, 0);
+  lift_above_horizon(pole);
+  // Tables are fitted side by side.
+  const Continuation how{*brdf, recipe_.seed, 1, false, {}};
+  continue_over_views(how, std::move(pole), starts, result, progress, nullptr);
   return result.to_rgba16f();
 }
 
@@ -237,15 +201,6 @@ std::vector<std::uint16_t> SetFit::run() {
 }
 
 }  // namespace
-
-std::vector<double> geometric_widths(double first, double last, int count) {
-  std::vector<double> widths;
-  for (int i = 0; i < count; ++i) {
-    widths.push_back(first * std::pow(last / first, static_cast<double>(i) / (count - 1)));
-  }
-  widths.back() = last;
-  return widths;
-}
 
 SetLayout::SetLayout(const SetRecipe& recipe)
     : levels_(static_cast<int>(recipe.widths.size())), lobes_(recipe.lobes), views_(recipe.views) {}
@@ -314,53 +269,6 @@ std::vector<std::uint16_t> refit_table(const SetRecipe& recipe,
     throw std::invalid_argument("The set has no table of this number.");
   }
   return SetFit(recipe, texels, progress).fit(table, progress);
-}
-
-LobeTable interpolate_table_set(const SetRecipe& recipe, const std::vector<std::uint16_t>& texels,
-                                const glm::dvec2& alpha) {
-  validate(recipe);
-  const SetLayout layout(recipe);
-  if (texels.size() != layout.total()) {
-    throw std::invalid_argument("The texels do not have the size of the set of tables.");
-  }
-  if (!(alpha.x >= alpha.y) || !(alpha.y > 0.0)) {
-    throw std::invalid_argument("Widths must be positive, that along x the greater one.");
-  }
-  // The lower level and the way to the next.
-  const std::vector<double>& widths = recipe.widths;
-  const auto locate = [&](double width) {
-    const double within = std::clamp(width, widths.front(), widths.back());
-    int level = 0;
-    while (level + 2 < layout.levels() && widths[static_cast<std::size_t>(level) + 1] <= within) {
-      ++level;
-    }
-    const double low = widths[static_cast<std::size_t>(level)];
-    const double high = widths[static_cast<std::size_t>(level) + 1];
-    return std::make_pair(level, std::log(within / low) / std::log(high / low));
-  };
-  const auto [x, u] = locate(alpha.x);
-  const auto [y, v] = locate(alpha.y);
-  const glm::dvec2 used = glm::clamp(alpha, widths.front(), widths.back());
-
-  const bool isotropic = used.x == used.y;
-  Blend blend(used, layout.views(isotropic ? layout.pairs() : 0), recipe.lobes);
-  const auto add = [&](int table, double share) {
-    if (share > 0.0) blend.add(stored_table(layout, recipe.lobes, texels, table, used), share);
-  };
-  if (isotropic) {
-    add(layout.isotropic_table(x), 1.0 - u);
-    add(layout.isotropic_table(x + 1), u);
-  } else if (x == y) {
-    add(layout.pair_table(x, y), 1.0 - u);
-    add(layout.pair_table(x + 1, y), u - v);
-    add(layout.pair_table(x + 1, y + 1), v);
-  } else {
-    add(layout.pair_table(x, y), (1.0 - u) * (1.0 - v));
-    add(layout.pair_table(x + 1, y), u * (1.0 - v));
-    add(layout.pair_table(x, y + 1), (1.0 - u) * v);
-    add(layout.pair_table(x + 1, y + 1), u * v);
-  }
-  return blend.table();
 }
 
 }  // namespace lobelight

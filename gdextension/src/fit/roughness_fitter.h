@@ -26,9 +26,6 @@ struct SetRecipe {
   int threads = 0;  // zero or negative: every core
 };
 
-// `count` ≥ 2 widths from `first` to `last` in equal steps of the logarithm.
-std::vector<double> geometric_widths(double first, double last, int count);
-
 constexpr int kMaxWidths = 64;
 
 // Where a set's tables are. Tables come in the order in which they are stored: the anisotropic ones
@@ -78,11 +75,5 @@ std::vector<std::uint16_t> fit_table_set(const SetRecipe& recipe, Progress& prog
 std::vector<std::uint16_t> refit_table(const SetRecipe& recipe,
                                        const std::vector<std::uint16_t>& texels, int table,
                                        Progress& progress);
-
-// The table of any widths, alpha.x ≥ alpha.y, interpolated as LobeTableSet does it: linearly in the
-// logarithms of the widths, in triangles next to the diagonal and bilinearly elsewhere; equal
-// widths give an isotropic table. Widths beyond the set's are its last ones.
-LobeTable interpolate_table_set(const SetRecipe& recipe, const std::vector<std::uint16_t>& texels,
-                                const glm::dvec2& alpha);
 
 }  // namespace lobelight

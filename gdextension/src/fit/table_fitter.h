@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "fit/em.h"
+#include "fit/view_fitter.h"
 #include "table/lobe_table.h"
 
 namespace lobelight {
@@ -47,50 +47,10 @@ void validate(const Recipe& recipe);
 glm::ivec2 resolve_views(const Recipe& recipe, bool isotropic);
 glm::ivec2 resolve_views(const Recipe& recipe);
 
-// How a fit went. View (t, p) is element p · T + t.
-struct FitReport {
-  double seconds = 0.0;
-  std::vector<int> iterations;
-  // Final, mean over the slice's mass in nats: of the Gaussians or, refined, of what is drawn.
-  std::vector<double> log_likelihood;
-  std::vector<double> first_view_curve;  // log-likelihood of view (0, 0), iteration by iteration
-};
-
-// What a recipe does not say, with the values that every baked table uses; tests and benchmarks
-// vary them.
-struct FitOptions {
-  int nodes_per_axis = 64;
-  EmOptions em;
-  // Views in the planes of symmetry get lobes that are their own mirror image as a set
-  // (continuation only).
-  bool keep_mirror_symmetry = true;
-  // Lobes may wander on the way from view to view where many arrangements are about equally good,
-  // and tables are then worse between views than at them. After the continuation, every inner view
-  // of a column is fitted again this often, for kSmoothingIterations from the mean of itself and
-  // its two neighbours in table coordinates (continuation only; 0 leaves it out). Half-way between
-  // views this lowers the worst L1 error by up to half.
-  int smoothing_passes = 3;
-  // Of each view of a recipe that says `refine`; half as many once more where views are smoothed.
-  int refinement_iterations = 20;
-};
-
-// What FitOptions::em.longest_step is at most while lobes are carried on from view to view: short
-// steps, so that lobes stay what they are.
-constexpr double kContinuationStep = 0.1;
-
-// How many iterations a view is given when it is smoothed: so few that the lobes stay where they
-// were put as far as the likelihood does not care.
-constexpr int kSmoothingIterations = 10;
-
-// The order in which a column's inner views are smoothed: every other one, then those between them.
-std::vector<int> smoothing_order(int elevations);
-
-// Lobes that start below the horizon, where a slice has no mass, are put just above it.
-void lift_above_horizon(Mixture& mixture);
-
 // Fits the recipe's table. The lobes of a coloured BRDF are fitted to the mean of its channels and
 // get weights for each of them (fit/channel_weights.h). The bytes are the same for any number of
-// threads. Throws what validate() and make_brdf() do, and Cancelled. `report` may be null.
+// threads. Throws what validate() and make_brdf() do, std::invalid_argument where a file's numbers
+// make weights that a table cannot hold, and Cancelled. `report` may be null.
 LobeTable fit_table(const Recipe& recipe, Progress& progress, FitReport* report,
                     const FitOptions& options = {});
 

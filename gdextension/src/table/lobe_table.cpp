@@ -12,7 +12,7 @@ namespace lobelight {
 
 namespace {
 
-constexpr double kLargestHalf = 65504.0;
+constexpr double kLargestHalf = LobeTable::kMaxWeight;
 constexpr double kHalfPi = 0.5 * kPi;
 
 // cos(LobeTable::kMaxElevation)
@@ -109,6 +109,23 @@ void LobeTable::set_mixture_at_view(int t, int p, const Mixture& mixture) {
     const HalfVectorLobe h = to_half_vector(lobe.gaussian, o);
     entries_[index(k, t, p)] = {h.slope.x / alpha_.x, h.slope.y / alpha_.y,
                                 clamp_log2_kappa(std::log2(h.sharpness)), lobe.weight};
+  }
+}
+
+LobeTable::View LobeTable::stored_view(int t, int p) const {
+  View view;
+  for (int k = 0; k < lobes_; ++k) {
+    view.entries.push_back(entry(k, t, p));
+    if (has_second_texels()) view.second_entries.push_back(second_entry(k, t, p));
+  }
+  return view;
+}
+
+void LobeTable::store_view(int t, int p, const View& view) {
+  for (int k = 0; k < lobes_; ++k) {
+    const auto lobe = static_cast<std::size_t>(k);
+    entries_[index(k, t, p)] = view.entries.at(lobe);
+    if (has_second_texels()) second_entries_[index(k, t, p)] = view.second_entries.at(lobe);
   }
 }
 

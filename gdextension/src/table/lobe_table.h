@@ -25,6 +25,10 @@ class LobeTable {
   static constexpr double kMinLog2Kappa = -10.0;
   static constexpr double kMaxLog2Kappa = 27.0;
 
+  // Range of the weights that texels hold.
+  static constexpr double kMinWeight = 0x1p-24;
+  static constexpr double kMaxWeight = 65504.0;
+
   // What a texel holds: the half-vector's slopes divided by alpha, log2(κ (o·h)) and the weight.
   using Entry = glm::dvec4;
 
@@ -62,6 +66,14 @@ class LobeTable {
   // are above the horizon. Lobe k of neighbouring views should be the same lobe.
   Mixture mixture_at_view(int t, int p) const;
   void set_mixture_at_view(int t, int p, const Mixture& mixture);
+
+  // What a view's lobes have in store, to be put in the place of another view's as it is.
+  struct View {
+    std::vector<Entry> entries;
+    std::vector<Entry> second_entries;
+  };
+  View stored_view(int t, int p) const;
+  void store_view(int t, int p, const View& view);
 
   // The lobes whose entries are the mean of view (t, p)'s and, together as much, those of the views
   // before and after it in elevation; 0 < t < T − 1.
