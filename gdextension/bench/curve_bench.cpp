@@ -40,7 +40,7 @@ void measure(const Material& material, bool accelerate, int nodes, int iteration
     const LobeTable table = fit_table(recipe, progress, nullptr, options);
     seconds = std::min(seconds, static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
     if (run > 0) continue;
-    errors = table_errors(table, *make_brdf(material.brdf, material.alpha), false);
+    errors = table_errors(table, *make_brdf(material.brdf, material.alpha));
   }
   std::printf("%s,%g,%g,%d,%d,%d,%.5f,%.4f,%.4f\n", material.brdf, material.alpha.x,
               material.alpha.y, accelerate, nodes, iterations, seconds,

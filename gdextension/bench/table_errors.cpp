@@ -22,7 +22,7 @@ glm::dvec3 view_between(const LobeTable& table, int t, int p) {
 
 }  // namespace
 
-TableErrors table_errors(const LobeTable& table, const Brdf& brdf, bool nearest) {
+TableErrors table_errors(const LobeTable& table, const Brdf& brdf) {
   TableErrors errors;
   const glm::ivec2 views = table.views();
   for (int p = 0; p < views.y; ++p) {
@@ -30,8 +30,7 @@ TableErrors table_errors(const LobeTable& table, const Brdf& brdf, bool nearest)
       errors.at_views.add(l1_error(brdf, table.view(t, p), table.mixture_at_view(t, p)));
       if (t == views.x - 1 || (p == views.y - 1 && p > 0)) continue;
       const glm::dvec3 o = view_between(table, t, p);
-      errors.between_views.add(
-          l1_error(brdf, o, table.interpolate(nearest ? table.view(t, p) : o)));
+      errors.between_views.add(l1_error(brdf, o, table.interpolate(o)));
     }
   }
   return errors;

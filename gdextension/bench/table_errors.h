@@ -1,6 +1,6 @@
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 
 #include "brdf/brdf.h"
 #include "table/lobe_table.h"
@@ -15,7 +15,8 @@ struct Errors {
 
   void add(double error) {
     sum += error;
-    worst = std::max(worst, error);
+    // What is no number is the worst, and stays it.
+    if (!(error <= worst) && !std::isnan(worst)) worst = error;
     ++count;
   }
   double mean_per_cent() const { return 100.0 * sum / count; }
@@ -28,7 +29,7 @@ struct TableErrors {
 };
 
 // The error of a table's mixtures, scaled to the slice's albedo, against ρ(i, o) i_z. Between views
-// a table is interpolated, or read at the view before where `nearest` says so.
-TableErrors table_errors(const LobeTable& table, const Brdf& brdf, bool nearest);
+// a table is interpolated.
+TableErrors table_errors(const LobeTable& table, const Brdf& brdf);
 
 }  // namespace lobelight

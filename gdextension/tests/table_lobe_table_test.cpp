@@ -218,6 +218,9 @@ TEST_CASE("Impossible tables are refused") {
   CHECK_THROWS_AS(LobeTable({0.1, 0.1}, 1, {2, 0}), std::invalid_argument);
   LobeTable table({0.1, 0.1}, 2, {2, 1});
   CHECK_THROWS_AS(table.set_mixture_at_view(0, 0, Mixture(3)), std::invalid_argument);
+  LobeTable broken = table;
+  broken.set_mixture_at_view(0, 0, {{nan, {}}, {1.0, {}}});
+  CHECK_THROWS_AS(broken.to_rgba16f(), std::logic_error);
   std::vector<std::uint16_t> texels(4 * 2 * 2, 0);
   CHECK_NOTHROW(LobeTable::from_rgba16f({0.1, 0.1}, 2, {2, 1}, texels));
   texels.back() = 0x7c00;

@@ -14,7 +14,12 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MATERIALS = [("ward", "0.05,0.05"), ("ward", "0.1,0.1"), ("ward", "0.2,0.2"), ("ward", "0.05,0.2"), ("ggx", "0.1,0.1")]
+MATERIALS = [
+    *(("ward", alpha) for alpha in ("0.05,0.05", "0.1,0.1", "0.2,0.2", "0.5,0.5")),
+    *(("ggx", alpha) for alpha in ("0.05,0.05", "0.1,0.1", "0.3,0.3")),
+    ("ward", "0.05,0.2"),
+    ("ggx", "0.05,0.2"),
+]
 METHODS = ("gmm8", "gmm8r")
 
 

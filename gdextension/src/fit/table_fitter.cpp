@@ -1,6 +1,5 @@
 #include "fit/table_fitter.h"
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <sstream>
@@ -27,7 +26,7 @@ void refuse_unstorable(const LobeTable& table, const Brdf& brdf) {
   for (int p = 0; p < table.views().y; ++p) {
     for (int t = 0; t < table.views().x; ++t) {
       const double albedo = total_weight(table.mixture_at_view(t, p));
-      greatest = std::max(greatest, albedo);
+      if (!(albedo <= greatest)) greatest = albedo;
       if (!(albedo <= LobeTable::kMaxWeight)) ++too_bright;
     }
   }

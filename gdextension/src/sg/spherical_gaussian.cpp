@@ -57,10 +57,6 @@ double coverage_one_minus_cosine(double kappa, double coverage) {
   return std::fmin(2.0, -log_rest / kappa);
 }
 
-double coverage_solid_angle(double kappa, double coverage) {
-  return kTwoPi * coverage_one_minus_cosine(kappa, coverage);
-}
-
 glm::dvec3 sample(const SphericalGaussian& gaussian, const glm::dvec2& u) {
   // The cap with the share u.x of the mass has a boundary that is distributed as the density is.
   const double t = coverage_one_minus_cosine(gaussian.kappa, u.x);

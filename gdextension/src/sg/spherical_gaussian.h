@@ -25,10 +25,9 @@ double density(const SphericalGaussian& gaussian, const glm::dvec3& direction);
 // mean (0 is the mean itself), u.y the angle around it.
 glm::dvec3 sample(const SphericalGaussian& gaussian, const glm::dvec2& u);
 
-// 1 − cos θ of the cap around the mean that holds `coverage` ∈ [0, 1] of the mass, and the cap's
-// solid angle 2π(1 − cos θ) in sr. Exact where Töral's eqs. 2.8 and 2.9 are the limit of large κ.
+// 1 − cos θ of the cap around the mean that holds `coverage` ∈ [0, 1] of the mass. Exact where
+// Töral's eq. 2.8 is the limit of large κ.
 double coverage_one_minus_cosine(double kappa, double coverage);
-double coverage_solid_angle(double kappa, double coverage);
 
 // 1 − R̄ of the density, R̄ = coth κ − 1/κ being the length of its mean vector.
 double one_minus_mean_resultant(double kappa);

@@ -221,6 +221,9 @@ std::vector<std::uint16_t> LobeTable::to_rgba16f() const {
   for (const std::vector<Entry>* entries : {&entries_, &second_entries_}) {
     for (const Entry& entry : *entries) {
       for (int channel = 0; channel < 4; ++channel) {
+        if (std::isnan(entry[channel])) {
+          throw std::logic_error("A lobe table holds something that is not a number.");
+        }
         texels.push_back(half_from_double(std::clamp(entry[channel], -kLargestHalf, kLargestHalf)));
       }
     }

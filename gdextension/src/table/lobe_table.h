@@ -94,7 +94,8 @@ class LobeTable {
   std::vector<glm::dvec3> interpolate_channel_weights(const glm::dvec3& direction) const;
 
   // Texture: width T, column t; lobes · P rows of first texels, row k · P + p, and below them as
-  // many rows of second texels in tables that have them; four half floats a texel.
+  // many rows of second texels in tables that have them; four half floats a texel. Throws
+  // std::logic_error for NaN: no bake saves such a table.
   int width() const { return views_.x; }
   int height() const { return lobes_ * views_.y * (has_second_texels() ? 2 : 1); }
   std::vector<std::uint16_t> to_rgba16f() const;
