@@ -1,6 +1,8 @@
 extends SceneTree
 ## `./dev bake`: fits one BRDF by lobes and saves the table as a resource.
 
+const Wording := preload("res://addons/lobelight/editor/wording.gd")
+
 const OPTIONS: PackedStringArray = [
 	"recipe",
 	"brdf",
@@ -131,8 +133,12 @@ func _bake(recipe: Dictionary, out: String) -> void:
 	if result.has("clamped"):
 		print(
 			(
-				"%s: %d numbers negative or not finite; mirror images averaged, %.2f %% off their mean"
-				% [table.brdf, result["clamped"], 100.0 * (result["asymmetry"] as float)]
+				"%s: %s negative or not finite; mirror images averaged, %.2f %% off their mean"
+				% [
+					table.brdf,
+					Wording.count(result["clamped"], "number"),
+					100.0 * (result["asymmetry"] as float),
+				]
 			)
 		)
 	if result.has("predicted_psnr"):

@@ -33,14 +33,19 @@ func _initialize() -> void:
 func _run() -> void:
 	_comparison.stage = ComparisonStage.new(self)
 	_read_arguments()
+	var remarks: PackedStringArray = []
 	if _arguments.error.is_empty():
 		var panorama := Comparison.load_panorama(_comparison.environment_path)
 		_arguments.fail_if(panorama.get("error", ""))
 		_comparison.stage.panorama = panorama.get("texture")
+		remarks = panorama.get("remarks", remarks)
 	if _arguments.error.is_empty():
 		_arguments.fail_if(await _comparison.run())
+	# An error is one line, and nothing else.
 	if not _arguments.error.is_empty():
-		printerr(_arguments.error_line())
+		remarks = [_arguments.error_line()]
+	for line in remarks:
+		printerr(line)
 	_comparison = null
 	quit(0 if _arguments.error.is_empty() else 1)
 

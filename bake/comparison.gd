@@ -59,8 +59,8 @@ func run() -> String:
 	return await _compare(methods)
 
 
-## The panorama of a file as [member ComparisonStage.panorama] wants it: {"texture"} or {"error"}.
-## Says what the reader has to say of it.
+## The panorama of a file as [member ComparisonStage.panorama] wants it, and what there is to say of
+## it: {"texture", "remarks"} or {"error"}.
 static func load_panorama(path: String) -> Dictionary:
 	var panorama := NativeLibrary.load_panorama(path)
 	if panorama.has("error"):
@@ -69,13 +69,14 @@ static func load_panorama(path: String) -> Dictionary:
 	if side > LARGEST_TEXTURE:
 		var text := "%s: has %d texels along a side; a texture holds %d"
 		return {"error": text % [path, side, LARGEST_TEXTURE]}
+	var remarks: PackedStringArray = []
 	for remark: String in panorama["warnings"] + panorama["notes"]:
-		printerr("%s: %s." % [path, remark])
+		remarks.append("%s: %s." % [path, remark])
 	var pixels: PackedFloat32Array = panorama["pixels"]
 	var image := Image.create_from_data(
 		panorama["width"], panorama["height"], false, Image.FORMAT_RGBF, pixels.to_byte_array()
 	)
-	return {"texture": ImageTexture.create_from_image(image)}
+	return {"texture": ImageTexture.create_from_image(image), "remarks": remarks}
 
 
 func _compare(methods: Array[ComparisonMethod]) -> String:

@@ -304,7 +304,7 @@ TEST_CASE("decode_exr converts other primaries") {
 
   Imf::Header none = header_for(kRgb);
   Imf::addChromaticities(none, Imf::Chromaticities({0, 0}, {0, 0}, {0, 0}, {0, 0}));
-  check_refused(scan_line_file(kRgb, none), "primaries that span no colours");
+  check_refused(scan_line_file(kRgb, none), "chromaticities that span no colours");
 }
 
 TEST_CASE("decode_exr refuses cube maps and reads panoramas marked as such") {

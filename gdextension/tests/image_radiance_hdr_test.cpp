@@ -153,12 +153,12 @@ TEST_CASE("Radiance: PRIMARIES are converted, XYZE as the tristimulus values tha
       with_primaries(".708 .292 .170 .797 .131 .046 .3127 .3290", {128, 0, 0, 129});
   CHECK(wide.rgb[0] == doctest::Approx(1.6605).epsilon(2e-3));
   CHECK(wide.rgb[1] == doctest::Approx(-0.1246).epsilon(2e-3));
-  CHECK(wide.notes == std::vector<std::string>{"was converted from other primaries to Rec. 709"});
+  CHECK(wide.notes == std::vector<std::string>{"was converted from its PRIMARIES to Rec. 709"});
   const Panorama same = with_primaries(".64 .33 .30 .60 .15 .06 .3127 .3290", {128, 0, 0, 129});
   CHECK(same.rgb == std::vector<float>{1.0f, 0.0f, 0.0f});
   CHECK(same.notes.empty());
   CHECK(message_of(with_header(start + "0 0 0 0 0 0 0 0\n\n-Y 1 +X 1\n", {1, 2, 3, 4})) ==
-        "x.hdr: has primaries that span no colours");
+        "x.hdr: has PRIMARIES that span no colours");
 
   // XYZ (1, 1, 1): the sums of the rows of IEC 61966-2-1's matrix from XYZ to linear sRGB.
   const Panorama xyze = decoded(header("-Y 1 +X 1", "32-bit_rle_xyze") + Bytes{128, 128, 128, 129});

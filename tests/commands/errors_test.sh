@@ -109,6 +109,8 @@ compare_refuses "no environment" "env" "${good_compare[@]}" --methods gmm4
 compare_refuses "text in an .exr" "text.exr" "${good_compare[@]}" --methods gmm4 --env "$work/text.exr"
 compare_refuses "text in a .hdr" "text.hdr" "${good_compare[@]}" --methods gmm4 --env "$work/text.hdr"
 compare_refuses "an EXR that is cut off" "cut.exr" "${good_compare[@]}" --methods gmm4 --env "$work/cut.exr"
+compare_refuses "a map wider than textures" "20000_wide.hdr: has 20000 texels along a side; a texture holds 16384" \
+  "${good_compare[@]}" --methods gmm4 --env "$root/tests/data/field/20000_wide.hdr"
 compare_refuses "an empty file" "empty.exr" "${good_compare[@]}" --methods gmm4 --env "$work/empty.exr"
 compare_refuses "a folder for an environment" "$work" "${good_compare[@]}" --methods gmm4 --env "$work"
 compare_refuses "an unknown method" "magic8" "${good_compare[@]}" --methods magic8 --env "$environment"

@@ -314,7 +314,7 @@ Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& n
       const Imf::Chromaticities& given = Imf::chromaticities(header);
       const auto xy = [](const Imath::V2f& c) { return glm::dvec2(c.x, c.y); };
       convert_to_rec709(image, {xy(given.red), xy(given.green), xy(given.blue), xy(given.white)},
-                        name);
+                        "chromaticities", name);
     }
     return image;
   });

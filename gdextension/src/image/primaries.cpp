@@ -74,9 +74,10 @@ std::optional<glm::dmat3> conversion_to_rec709(const Primaries& primaries) {
   return matrix;
 }
 
-void convert_to_rec709(Panorama& image, const Primaries& primaries, const std::string& name) {
+void convert_to_rec709(Panorama& image, const Primaries& primaries, const std::string& source,
+                       const std::string& name) {
   const std::optional<glm::dmat3> conversion = conversion_to_rec709(primaries);
-  if (!conversion) throw ImageError(name, "has primaries that span no colours");
+  if (!conversion) throw ImageError(name, "has " + source + " that span no colours");
   if (is_identity(*conversion)) return;
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
@@ -91,8 +92,8 @@ void convert_to_rec709(Panorama& image, const Primaries& primaries, const std::s
       if (rgb[c] != kInfinity) rgb[c] = converted[c];
     }
   }
-  image.notes.push_back(std::string("was converted from ") +
-                        (are_cie_xyz(primaries) ? "CIE XYZ" : "other primaries") + " to Rec. 709");
+  image.notes.push_back("was converted from " +
+                        (are_cie_xyz(primaries) ? "CIE XYZ" : "its " + source) + " to Rec. 709");
 }
 
 }  // namespace lobelight

@@ -30,8 +30,9 @@ inline constexpr Primaries kCieXyz = {{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {1.0 /
 std::optional<glm::dmat3> conversion_to_rec709(const Primaries& primaries);
 
 // Converts the colours of `image` from `primaries`, if these are others than Rec. 709's, and notes
-// it. An infinite channel stays infinite. Throws ImageError, with `name` for the file, when the
-// primaries span no colours.
-void convert_to_rec709(Panorama& image, const Primaries& primaries, const std::string& name);
+// it; `source` is what the file calls them. An infinite channel stays infinite. Throws ImageError,
+// with `name` for the file, when the primaries span no colours.
+void convert_to_rec709(Panorama& image, const Primaries& primaries, const std::string& source,
+                       const std::string& name);
 
 }  // namespace lobelight

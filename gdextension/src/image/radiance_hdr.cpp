@@ -187,9 +187,9 @@ Panorama decode_radiance_hdr(const std::vector<std::uint8_t>& bytes, const std::
   image.notes = std::move(header.notes);
   image.warnings = std::move(header.warnings);
   if (header.is_xyze) {
-    convert_to_rec709(image, kCieXyz, name);
+    convert_to_rec709(image, kCieXyz, "XYZE", name);
   } else if (header.primaries) {
-    convert_to_rec709(image, *header.primaries, name);
+    convert_to_rec709(image, *header.primaries, "PRIMARIES", name);
   }
   return image;
 }

@@ -167,10 +167,16 @@ func _describe(report: Dictionary) -> String:
 	if report.has("predicted_psnr"):
 		lines.append("%.1f dB without the pyramid" % report["predicted_psnr"])
 	if report.has("clamped"):
-		lines.append(
-			(
-				"%d numbers negative or not finite; mirror images differ by %.2f %%"
-				% [report["clamped"], 100.0 * (report["asymmetry"] as float)]
+		(
+			lines
+			. append(
+				(
+					"%s negative or not finite; mirror images differ by %.2f %%"
+					% [
+						Wording.count(report["clamped"], "number"),
+						100.0 * (report["asymmetry"] as float),
+					]
+				)
 			)
 		)
 	return "\n".join(lines)
