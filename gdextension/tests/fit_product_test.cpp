@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "base/pi.h"
 #include "brdf/binary_file.h"
 #include "brdf/brdf.h"
+#include "brdf/ggx.h"
 #include "fit/slice.h"
 #include "fit/table_fitter.h"
 #include "measured_files.h"
@@ -20,24 +22,23 @@ namespace {
 using testing::TemporaryFile;
 
 // Red and blue of different widths: no one lobe's colour amounts to it.
-glm::dvec3 coloured(const glm::dvec3& i, const glm::dvec3& o, const glm::dvec2& alpha) {
-  static const auto at = [](const glm::dvec2& width) { return make_brdf("ggx", width); };
-  const auto sharp = at(alpha);
-  const auto wide = at(2.0 * alpha);
-  return {0.9 * sharp->evaluate(i, o), 0.5 * sharp->evaluate(i, o), 0.8 * wide->evaluate(i, o)};
+testing::Reflectance coloured(const glm::dvec2& alpha) {
+  return [alpha, sharp = Ggx(alpha), wide = Ggx(2.0 * alpha)](const glm::dvec3& i,
+                                                              const glm::dvec3& o) {
+    const double narrow = sharp.evaluate(i, o);
+    return glm::dvec3(0.9 * narrow, 0.5 * narrow, 0.8 * wide.evaluate(i, o));
+  };
 }
 
-std::vector<char> coloured_merl() {
-  return testing::merl_file(
-      [](const glm::dvec3& i, const glm::dvec3& o) { return coloured(i, o, glm::dvec2(0.3)); });
+const std::vector<char>& coloured_merl() {
+  static const std::vector<char> file = testing::merl_file(coloured(glm::dvec2(0.3)));
+  return file;
 }
 
 std::vector<char> coloured_rgl() {
   testing::RglRecipe made;
   made.alpha = {0.2, 0.4};
-  made.reflectance = [](const glm::dvec3& i, const glm::dvec3& o) {
-    return coloured(i, o, {0.2, 0.4});
-  };
+  made.reflectance = coloured(made.alpha);
   made.azimuths.clear();
   for (int p = 0; p <= 4; ++p) made.azimuths.push_back(-kPi + p * kPi / 4.0);
   for (int t = 0; t <= 4; ++t) made.elevations.push_back(0.5 * kPi * t / 4.0);
@@ -92,7 +93,7 @@ TEST_CASE("Tables of all materials, fitted in all ways, do not depend on the thr
     glm::ivec2 views;
   };
   FitOptions options;
-  options.nodes_per_axis = 32;
+  options.nodes_per_axis = 24;
   for (const Material& material :
        {Material{"ward", {0.1, 0.3}, {4, 3}}, Material{"ggx", {0.1, 0.3}, {4, 3}},
         Material{merl.path(), {0.0, 0.0}, {4, 1}}, Material{rgl.path(), {0.0, 0.0}, {4, 3}}}) {
@@ -165,9 +166,14 @@ TEST_CASE("Colours that no lobe shares give finite weights") {
 // In any unit a file's table is the same but for a factor, as far as half floats go.
 TEST_CASE("Numbers of any size are fitted, or refused with a sentence") {
   const auto made = [](double unit) {
-    return testing::merl_file([unit](const glm::dvec3& i, const glm::dvec3& o) {
-      return unit * coloured(i, o, glm::dvec2(0.3));
-    });
+    std::vector<char> bytes = coloured_merl();
+    for (std::size_t at = testing::kMerlHeader; at < bytes.size(); at += sizeof(double)) {
+      double number = 0.0;
+      std::memcpy(&number, &bytes[at], sizeof(double));
+      number *= unit;
+      std::memcpy(&bytes[at], &number, sizeof(double));
+    }
+    return bytes;
   };
   Recipe recipe;
   recipe.alpha = {0.3, 0.3};
@@ -183,16 +189,14 @@ TEST_CASE("Numbers of any size are fitted, or refused with a sentence") {
   const TemporaryFile plain(".binary");
   plain.write(made(1.0));
   const LobeTable expected = fitted(plain);
-  for (const double unit : {0x1p-8, 0x1p8}) {
-    const TemporaryFile file(".binary");
-    file.write(made(unit));
-    const LobeTable table = fitted(file);
-    for (int k = 0; k < 2; ++k) {
-      CHECK(table.entry(k, 1, 0).w == doctest::Approx(unit * expected.entry(k, 1, 0).w));
-      CHECK(table.entry(k, 1, 0).z == doctest::Approx(expected.entry(k, 1, 0).z));
-    }
+  const TemporaryFile dim(".binary");
+  dim.write(made(0x1p-8));
+  const LobeTable table = fitted(dim);
+  for (int k = 0; k < 2; ++k) {
+    CHECK(table.entry(k, 1, 0).w == doctest::Approx(0x1p-8 * expected.entry(k, 1, 0).w));
+    CHECK(table.entry(k, 1, 0).z == doctest::Approx(expected.entry(k, 1, 0).z));
   }
-  for (const double unit : {1e-20, 1e6, 1e34, 1e37}) {
+  for (const double unit : {1e-20, 1e6, 1e37}) {
     const TemporaryFile file(".binary");
     file.write(made(unit));
     CAPTURE(unit);

@@ -4,7 +4,7 @@
 
 # shellcheck disable=SC2034 # used by those who source this file
 SANITIZERS=(address undefined thread)
-THREADED='*base_*,*fit_table_fitter*,*fit_roughness*,*fit_refinement*,*brdf_measured*,*reference_*,*bake_*'
+THREADED='*base_*,*fit_table_fitter*,*fit_roughness*,*fit_refinement*,*fit_product*,*brdf_measured*,*reference_*,*bake_*'
 
 # prepare_sanitized GROUP…: what these need besides what is built for them.
 prepare_sanitized() {
