@@ -138,7 +138,8 @@ check_class_reference() {
 # The editor's side: suites in a running editor, the editor closed during a bake, and without the native library.
 run_editor() {
   local project=$RESULTS/editor-project
-  local editor=(in_time "$GODOT" --headless --editor --path "$project" ++)
+  local editor=(in_time env "XDG_DATA_HOME=$RESULTS/editor-user" "$GODOT" --headless --editor --path "$project" ++)
+  mkdir -p "$RESULTS/editor-user"
   bash "$ROOT/tools/testing/editor_project.sh" "$project"
   run_logged editor "${editor[@]}" --editor-tests res://tests/editor/with_library
   judge editor --engine --junit "$project/report/results.xml"

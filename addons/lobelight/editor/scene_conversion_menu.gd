@@ -3,7 +3,8 @@ extends EditorContextMenuPlugin
 ## "Convert Materials to LobeMaterial3D" in the menu of the scene tree: what the selected nodes
 ## and those below them draw with Godot's own materials, they draw with LobeMaterial3Ds. It can be
 ## undone. Materials of meshes are overridden in the nodes, because imported meshes cannot be
-## changed.
+## changed; instanced scenes get Editable Children for it, since scenes are saved without what else
+## has been changed in them.
 
 const ConversionPlugin := preload("material_conversion_plugin.gd")
 const SceneUsage := preload("menu/scene_usage.gd")
@@ -63,6 +64,39 @@ static func _find_materials(node: Node) -> Array[Array]:
 	return found
 
 
+## The instanced scenes that must become editable for changes in them to be saved with the scene of
+## [param root], outer ones first.
+static func find_instances(changes: Array[Array], root: Node) -> Array[Node]:
+	var found: Array[Node] = []
+	for change in changes:
+		for instance in _find_owners(change[0], root):
+			if instance not in found and not root.is_editable_instance(instance):
+				found.append(instance)
+	return found
+
+
+## Those of the changes that are saved with the scene of [param root]: not those of what scripts have
+## added to it.
+static func find_saved(changes: Array[Array], root: Node) -> Array[Array]:
+	return changes.filter(
+		func(change: Array) -> bool:
+			var node: Node = change[0]
+			var owners := _find_owners(node, root)
+			var outermost := node if owners.is_empty() else owners[0]
+			return node == root or outermost.owner == root
+	)
+
+
+# The instances that a node is in, below the root, outer ones first.
+static func _find_owners(node: Node, root: Node) -> Array[Node]:
+	var owners: Array[Node] = []
+	var next := node.owner if node != root else null
+	while next != null and next != root:
+		owners.push_front(next)
+		next = next.owner
+	return owners
+
+
 ## What is said of changes to a scene, and of the light that its materials lack then.
 static func describe(changes: Array[Array], root: Node) -> String:
 	if changes.is_empty():
@@ -81,12 +115,21 @@ static func describe(changes: Array[Array], root: Node) -> String:
 func convert_nodes(nodes: Array) -> void:
 	var roots: Array[Node] = []
 	roots.assign(nodes)
-	var changes := find_changes(roots)
 	var root := EditorInterface.get_edited_scene_root()
-	EditorInterface.get_editor_toaster().push_toast(describe(changes, root))
+	var changes := find_saved(find_changes(roots), root)
+	var instances := find_instances(changes, root)
+	var toaster := EditorInterface.get_editor_toaster()
+	toaster.push_toast(describe(changes, root))
 	if changes.is_empty():
 		return
+	if not instances.is_empty():
+		toaster.push_toast(
+			"Editable Children is now on for %s." % Wording.count(instances.size(), "instance")
+		)
 	_undo_redo.create_action("Convert Materials to LobeMaterial3D")
+	for instance in instances:
+		_undo_redo.add_do_method(root, "set_editable_instance", instance, true)
+		_undo_redo.add_undo_method(root, "set_editable_instance", instance, false)
 	for change in changes:
 		var node: Node = change[0]
 		var property: String = change[1]

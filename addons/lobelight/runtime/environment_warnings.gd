@@ -31,6 +31,8 @@ static func of(environment: LobeEnvironment3D, root: Node) -> PackedStringArray:
 		warnings.append_array(_of_capture(environment, root))
 	elif root != null:
 		warnings.append_array(_of_sky(root))
+		if environment.update_mode == LobeEnvironment3D.UpdateMode.WHEN_CHANGED:
+			warnings.append_array(_of_unseen_changes(root))
 	if is_compatibility() and environment.update_mode == LobeEnvironment3D.UpdateMode.EVERY_FRAME:
 		warnings.append(
 			(
@@ -88,6 +90,23 @@ static func _of_sky(root: Node) -> PackedStringArray:
 		else:
 			warnings.append_array(_of_panorama(material.panorama, "sky's panorama"))
 	return warnings
+
+
+# The engine keeps the values of global uniforms from games.
+static func _of_unseen_changes(root: Node) -> PackedStringArray:
+	var declared := RegEx.create_from_string("\\bglobal\\s+uniform\\b")
+	for background in _find_backgrounds(root):
+		var sky := background.sky if background.background_mode == Environment.BG_SKY else null
+		var material := sky.sky_material as ShaderMaterial if sky != null else null
+		if material != null and material.shader != null:
+			if declared.search(material.shader.code) != null:
+				return [
+					(
+						"The sky's shader reads a global uniform, whose changes nothing tells of: call "
+						+ "rebuild() after them, or set Update Mode to Time Sliced."
+					)
+				]
+	return []
 
 
 # What in the scene, as far as it says so, gives it a background: skies and colours.

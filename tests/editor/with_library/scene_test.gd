@@ -89,6 +89,40 @@ func test_skies_are_looked_at_too() -> void:
 	assert_array(SceneWarnings.of_environment(environment, root)).is_empty()
 
 
+func test_skies_that_change_unseen_are_told_so() -> void:
+	var root := _make_scene()
+	var environment := LobeEnvironment3D.new()
+	root.add_child(environment)
+	_add_sky(root)
+	var material := ShaderMaterial.new()
+	material.shader = Shader.new()
+	(root.get_child(2) as WorldEnvironment).environment.sky.sky_material = material
+	for global: bool in [false, true]:
+		var kind := "global uniform" if global else "uniform"
+		material.shader.code = "shader_type sky;\n%s vec4 colour;\nvoid sky() {}" % kind
+		var text := "\n".join(SceneWarnings.of_environment(environment, root))
+		assert_bool(text.contains("reads a global uniform")).is_equal(global)
+	environment.update_mode = LobeEnvironment3D.UpdateMode.EVERY_FRAME
+	var text := "\n".join(SceneWarnings.of_environment(environment, root))
+	assert_str(text).not_contains("global uniform")
+
+
+func test_sets_that_textures_cannot_use_are_told_so() -> void:
+	var material := LobeMaterial3D.new()
+	material.roughness_texture = ImageTexture.new()
+	material.anisotropy = 0.5
+	assert_array(SceneWarnings.of_material(material, null)).is_empty()
+	var tables := LobeTableSet.new()
+	tables.lobe_count = 1
+	tables.views = Vector2i(2, 2)
+	for i in 23:
+		tables.widths.append(0.01 * pow(1.2, i))
+	tables.image = Image.create_empty(2, 2 * 276 + 23, false, Image.FORMAT_RGBAH)
+	material.table_set = tables
+	var text := "\n".join(SceneWarnings.of_material(material, null))
+	assert_str(text).contains("do not change its lobes").contains("256 layers")
+
+
 func test_captures_of_nothing_are_told_so() -> void:
 	var root := _make_scene()
 	var environment := LobeEnvironment3D.new()
@@ -206,6 +240,64 @@ func test_a_conversion_says_what_it_did_and_what_light_is_missing() -> void:
 	assert_str(text).starts_with("Converted 1 material.").contains("Add a LobeEnvironment3D")
 	root.add_child(LobeEnvironment3D.new())
 	assert_str(SceneMenu.describe(changes, root)).is_equal("Converted 1 material.")
+
+
+# A scene with an instance of another that has an instance in it, converted by the menu and saved.
+func test_a_conversion_reaches_instances_and_is_saved() -> void:
+	var plugin := Kit.get_plugin(get_tree())
+	var menu: SceneMenu = plugin._scene_menu
+	var inner: Node3D = auto_free(Node3D.new())
+	inner.name = "Inner"
+	var ball := MeshInstance3D.new()
+	ball.name = "Ball"
+	ball.mesh = SphereMesh.new()
+	ball.mesh.material = StandardMaterial3D.new()
+	inner.add_child(ball)
+	ball.owner = inner
+	var path := _save(inner, "res://inner.tscn")
+	for name: String in ["Middle", "Outer"]:
+		var outer: Node3D = auto_free(Node3D.new())
+		outer.name = name
+		for index in 2:
+			var instance := (load(path) as PackedScene).instantiate()
+			instance.name = "Instance%d" % index
+			outer.add_child(instance)
+			instance.owner = outer
+		path = _save(outer, "res://%s.tscn" % name.to_lower())
+	EditorInterface.open_scene_from_path(path)
+	await await_idle_frame()
+	var root := EditorInterface.get_edited_scene_root()
+	var converted := root.get_node("Instance0/Instance1/Ball") as MeshInstance3D
+	var added := MeshInstance3D.new()
+	added.material_override = StandardMaterial3D.new()
+	converted.add_child(added)
+	menu.convert_nodes([root.get_node("Instance0/Instance1")])
+	# What a script has added is in no file.
+	assert_object(added.material_override).is_instanceof(StandardMaterial3D)
+	assert_object(converted.get_active_material(0)).is_instanceof(LobeMaterial3D)
+	var saved := PackedScene.new()
+	saved.pack(root)
+	var loaded: Node = auto_free(saved.instantiate())
+	for instance: String in ["Instance0/Instance0", "Instance0/Instance1", "Instance1/Instance1"]:
+		var material := (loaded.get_node(instance + "/Ball") as MeshInstance3D).get_active_material(
+			0
+		)
+		assert_bool(material is LobeMaterial3D).is_equal(instance == "Instance0/Instance1")
+	var history := plugin.get_undo_redo()
+	var steps := history.get_history_undo_redo(history.get_object_history_id(root))
+	steps.undo()
+	assert_object(converted.get_active_material(0)).is_instanceof(StandardMaterial3D)
+	assert_bool(root.is_editable_instance(root.get_node("Instance0"))).is_false()
+	# The editor goes by its own count of the steps.
+	steps.redo()
+
+
+func _save(root: Node, path: String) -> String:
+	var packed := PackedScene.new()
+	packed.pack(root)
+	ResourceSaver.save(packed, path)
+	packed.take_over_path(path)
+	return path
 
 
 func test_environments_are_found_in_the_tree_and_outside() -> void:
