@@ -52,6 +52,9 @@ compare_refuses() {
   refuses "compare, $name" "$text" compare "$@"
 }
 
+refuses "bench runtime, unknown renderer" "there is no renderer 'metal'" bench runtime --renderer metal
+refuses "bench runtime, no scale" "--scale must be" bench runtime --scale none
+
 good_bake=(--brdf ward --lobes 4 --out table.res)
 bake_refuses "alpha of zero" "alpha" "${good_bake[@]}" --alpha 0,0.1
 bake_refuses "negative alpha" "alpha" "${good_bake[@]}" --alpha 0.1,-0.1

@@ -41,6 +41,17 @@ open_first() {
   in_project --editor --frame-delay 50 --quit-after 240
 }
 
+# In a project that no editor has opened, as README says.
+import_first() {
+  local line
+  # shellcheck disable=SC2016 # the quotes are README's
+  line=$(sed -n 's/^ *`\(mkdir -p \.godot && .*\)`$/\1/p' "$ROOT/README.md")
+  cp -r "$project" "$work/imported" \
+    && [[ $line == *"godot --headless --import" ]] \
+    && (cd "$work/imported" && eval "${line% && godot --headless --import}") \
+    && quiet_engine "$GODOT" --headless --path "$work/imported" --import
+}
+
 open_editor() {
   in_project --editor --quit-after 60
 }
@@ -147,6 +158,7 @@ if [[ -e $ROOT/.git ]]; then
   expect "an archive of the repository is the addon, too" archive_is_an_addon
 fi
 expect "unpacked" unpack
+expect "a first import from the command line" import_first
 expect "the editor opens" open_first
 expect "the plugin is switched on" enable_plugin
 expect "a frame with the ready tables" draw "$work/ready.png"

@@ -39,7 +39,7 @@ func test_gpu_time() -> void:
 	_view.add_child(instance)
 	var times: PackedFloat32Array = await _view.measure_gpu_time(5)
 	assert_int(times.size()).is_equal(5)
-	assert_float(LinearViewport.median(times)).is_between(0.001, 1000.0)
+	assert_float(times[0]).is_greater(0.0)
 
 
 func test_median() -> void:

@@ -1,6 +1,11 @@
 #!/usr/bin/env bash
-# measures the fit's speed, memory and error beside NumPy's and SciPy's ([--quick] [--only PART] [--json FILE] [--out DIR])
+# measures the fit's speed, memory and error beside NumPy's and SciPy's ([--quick] [--only PART] [--json FILE] [--out DIR]); runtime: an environment's updates
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
+
+if [[ ${1:-} == runtime ]]; then
+  shift
+  exec bash "$ROOT/tools/bench/runtime.sh" "$@"
+fi
 
 BENCH_PROBES=("header benchmark/benchmark.h libbenchmark-dev")
 

@@ -22,7 +22,7 @@ extends Node3D
 ## into a cube map, so the faces are read back, which waits for the GPU: [constant TIME_SLICED] and
 ## small sizes are advised there. With software drivers, 256 texels of a sky take about two thirds
 ## of a frame of 720p with eight lobes, and in Compatibility 2 ms of the processor besides
-## ([code]tests/render/update_cost_test.gd[/code]); [member update_gpu_time] and
+## ([code]./dev bench runtime[/code]); [member update_gpu_time] and
 ## [member update_cpu_time] tell for yours. Updates allocate nothing on the GPU.
 ## [br][br]
 ## There is to be one per [World3D]; a second one waits until the first has left. Materials do not

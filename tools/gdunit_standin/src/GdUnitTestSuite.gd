@@ -5,7 +5,9 @@ extends Node
 
 const StandinRecord := preload("res://addons/gdUnit4/src/standin/test_record.gd")
 const StandinErrorWatch := preload("res://addons/gdUnit4/src/standin/error_watch.gd")
-const _TEMPORARY := "user://tmp"
+
+# Of this run, so that others at the same time are not disturbed.
+static var _temporary := "user://tmp".path_join(str(OS.get_process_id()))
 
 ## The running test's record, set by the runner.
 var standin_record := StandinRecord.new("")
@@ -55,14 +57,14 @@ func auto_free(obj: Variant) -> Variant:
 
 ## Makes a folder for temporary files and returns its path.
 func create_temp_dir(relative_path: String) -> String:
-	var path := _TEMPORARY.path_join(relative_path)
+	var path := _temporary.path_join(relative_path)
 	DirAccess.make_dir_recursive_absolute(path)
 	return path
 
 
 ## Removes the folder for temporary files with all it holds.
 func clean_temp_dir() -> void:
-	_standin_remove(_TEMPORARY)
+	_standin_remove(_temporary)
 
 
 func await_idle_frame() -> void:
