@@ -75,8 +75,8 @@ static func find_instances(changes: Array[Array], root: Node) -> Array[Node]:
 	return found
 
 
-## Those of the changes that are saved with the scene of [param root]: not those of what scripts have
-## added to it.
+## Those of the changes that are saved with the scene of [param root]: not those of what scripts
+## have added to it.
 static func find_saved(changes: Array[Array], root: Node) -> Array[Array]:
 	return changes.filter(
 		func(change: Array) -> bool:
