@@ -54,7 +54,6 @@ std::vector<Case> brdf_cases(bool quick);
 std::vector<Case> step_cases(bool quick);
 std::vector<Case> slice_cases(bool quick);
 std::vector<Case> data_cases(bool quick);
-std::vector<Case> shader_cases(bool quick);
 std::vector<Case> table_cases(bool quick);
 
 // Unit vector at an elevation from the normal and an azimuth, both in degrees.

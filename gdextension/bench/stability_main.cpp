@@ -117,8 +117,7 @@ struct Group {
 
 constexpr Group kGroups[] = {{"gaussian", gaussian_cases}, {"brdf", brdf_cases},
                              {"step", step_cases},         {"slice", slice_cases},
-                             {"data", data_cases},         {"shader", shader_cases},
-                             {"table", table_cases}};
+                             {"data", data_cases},         {"table", table_cases}};
 
 void run(const std::vector<Case>& cases) {
   std::printf("{\"cases\": %zu}\n", cases.size());

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# runs the fitter on its hardest input against 50 digits ([--quick] [--json FILE] [--out DIR])
+# runs the fitter and the shaders on their hardest input against 50 digits ([--quick] [--json FILE] [--out DIR])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 usage() {
@@ -7,9 +7,10 @@ usage() {
 usage: ./dev stability [--quick] [--json FILE] [--out DIR] [--group G]…
 
 --quick      the reduced set that ./dev test runs; writes no report
---json FILE  {"cases": [{"name", "finite", "within_energy_bound", "error", "iterations", …}]}
+--json FILE  {"cases": [{"name", "group", "finite", "within_energy_bound", "error", "iterations", …}]};
+             those of shaders have "renderer" and "precision" ("single", or "half": mediump rounded as on phones)
 --out DIR    where the tables and heat maps go (default: docs/report/stability)
---group G    only this group: gaussian, brdf, step, slice, data, shader or table; writes no report
+--group G    only this group: gaussian, brdf, step, slice, data, table or shader; writes no report
 
 The last line is "stability: N passed, N failed"; the exit status is 1 if a case failed.
 USAGE
@@ -33,8 +34,8 @@ while (($# > 0)); do
           ;;
         --out) out=$2 ;;
         --group)
-          [[ " gaussian brdf step slice data shader table " == *" $2 "* ]] \
-            || die "stability: there is no group '$2'; the groups are gaussian, brdf, step, slice, data, shader, table"
+          [[ " gaussian brdf step slice data table shader " == *" $2 "* ]] \
+            || die "stability: there is no group '$2'; the groups are gaussian, brdf, step, slice, data, table, shader"
           arguments+=(--group "$2")
           ;;
       esac
@@ -47,5 +48,7 @@ done
 
 need_native_tests
 need_python stability
+need_import
+need_display
 exec "$PYTHON" "$ROOT/tools/stability/stability.py" --tool "$ROOT/build/cmake/lobelight_stability" \
   --out "$out" "${arguments[@]}"

@@ -163,19 +163,6 @@ def decode(texel, alpha, o):
     return mean, mpf(2) ** mpf(texel[2]) / bounded, cosine
 
 
-def level(variance, d, s2_over_4, c, alike):
-    """The pyramid's level whose blur is `variance`: V_l = s^2 (c a (4^l - 1) + m^3 4^l / 6) solved for 4^l, then the
-    place between two levels at which the mixed variance is that."""
-    m3 = max(abs(x) for x in d) ** 3
-    a = m3 if alike == 0 else mpf(1)
-    x = (s2_over_4 * variance + c * a) / (c * a + m3 / 6)
-    if x <= 1:
-        return mpf(0)
-    smooth = mp.log(x, 4)
-    whole = mp.floor(smooth)
-    return whole + (mpf(4) ** (smooth - whole) - 1) / 3
-
-
 # EM, Dempster et al. 1977, for a mixture of spherical Gaussians: Banerjee et al. 2005, section 4.
 
 

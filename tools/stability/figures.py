@@ -151,12 +151,12 @@ def draw(results, folder):
             logarithmic=False,
             **common,
         )
-    decodes = [case for case in results if case["group"] == "shader" and case.get("function") == "decode"]
+    decodes = [case for case in results if case["group"] == "shader decode" and case["renderer"] == "mobile"]
     add(
         "shader_decode.png",
         "Single precision: a mean's worst error in standard deviations of the sharpest lobe, κ(o·h) = 2^27",
         decodes,
-        value=lambda case: case["standard_deviations"],
+        value=lambda case: max(case.get("standard_deviations", 0.0), 1e-12),
         row=width,
         **elevation,
         axis_labels=(VIEW, "α"),

@@ -1,7 +1,7 @@
 """Judges the native cases: what lobelight_stability printed against 50 digits and against independent quadrature."""
 
 from judge_fits import judge_data, judge_slice, judge_step
-from judge_points import judge_brdf, judge_gaussian, judge_shader
+from judge_points import judge_brdf, judge_gaussian
 from judge_tables import judge_table
 from verdict import Verdict
 
@@ -11,7 +11,6 @@ JUDGES = {
     "step": judge_step,
     "slice": judge_slice,
     "data": judge_data,
-    "shader": judge_shader,
     "table": judge_table,
 }
 

@@ -1,4 +1,4 @@
-"""Judges functions at points: spherical Gaussians, reflectances, and the shader's formulas in single precision."""
+"""Judges functions at points: spherical Gaussians and reflectances."""
 
 import math
 
@@ -22,10 +22,6 @@ GAUSSIAN_BOUNDS = {
 }
 # ∫ g dω by the driver's 8000 nodes.
 INTEGRAL_BOUND = 1e-9
-
-# The shader's formulas in single precision: means in radians, the rest relative to what it is computed from. Columns of
-# the grid are square roots: next to the last view an elevation's 1e-7 is 3e-4 of the grid.
-FLOAT_BOUNDS = {"decode": 1e-6, "level": 1e-4, "position": 1e-3}
 
 
 def brdf_bound(alpha, cosine):
@@ -110,52 +106,4 @@ def judge_brdf(record):
         wanted_weight = wanted * i[2] / wanted_density
         verdict.error(float(abs(weight - wanted_weight) / max(mpf(1), wanted_weight)), bound, "relative")
     verdict.require(above > 0, "no sample is above the horizon")
-    return verdict.done()
-
-
-# Single precision
-
-
-def judge_shader(record):
-    verdict = Verdict(record, "shader")
-    function = record["function"]
-    verdict.result["function"] = function
-    verdict.finite(record["values"], "a value")
-    if not verdict.result["finite"]:
-        return verdict.done()
-    bound = FLOAT_BOUNDS[function]
-    worst_widths = 0.0
-    if function == "decode":
-        alpha, o = exact.vector(record["alpha"]), exact.clamp_view(exact.vector(record["o"]))
-        for row in rows(record["values"], 9):
-            mean, kappa, cosine = exact.decode(row[:3], alpha, o)
-            if cosine < exact.LEAST_O_DOT_H:
-                continue  # no reflection: finite is all that counts
-            off = float(exact.distance(exact.vector(row[3:6]), mean))
-            verdict.error(off, bound, "radians")
-            # o·h is a sum of products of size 1: its error is absolute.
-            verdict.error(float(abs(row[6] * kappa - 1) * min(mpf(1), cosine)), bound, "variance")
-            worst_widths = max(worst_widths, off * float(mp.sqrt(kappa)))
-        verdict.result["standard_deviations"] = worst_widths
-    elif function == "level":
-        before = -1.0
-        for n, (variance, x, y, z, own) in enumerate(rows(record["values"], 5)):
-            d = exact.normalised(exact.vector((x, y, z)))
-            wanted = exact.level(mpf(variance), d, *exact.vector(record["level"]))
-            verdict.error(float(abs(own - wanted)), bound, "levels")
-            verdict.require(own >= 0.0, "a level is negative")
-            if n % 3 == 0:
-                verdict.require(own >= before - bound, "wider lobes are looked up at finer levels")
-                before = own
-    else:
-        columns, azimuths = record["views"]
-        for x, y, z, column, row in rows(record["values"], 5):
-            o = exact.clamp_view(exact.vector((x, y, z)))
-            sine = mp.hypot(o[0], o[1])
-            rest = max(1 - mp.atan2(sine, o[2]) / mp.radians(mpf("89.4")), mpf(0))
-            wanted = (1 - mp.sqrt(rest)) * (columns - 1)
-            verdict.error(float(abs(column - wanted)) / max(columns - 1, 1), bound, "of the grid")
-            if azimuths > 1 and sine > 1e-3:
-                turn = mp.atan2(abs(o[1]), abs(o[0])) / (mp.pi / 2) * (azimuths - 1)
-                verdict.error(float(abs(row - turn)) / (azimuths - 1), bound, "of the grid")
     return verdict.done()

@@ -14,14 +14,36 @@ GROUP_TITLES = {
     "step": "One step of EM against 50 digits",
     "slice": "Slices and their fits; energy against quadrature",
     "data": "Awkward data",
-    "shader": "The shader's formulas in single precision",
     "table": "Whole tables; energy against quadrature",
-    "storage float": "Tables decoded in single precision",
     "storage half": "Tables as half floats",
-    "storage byte": "Tables as bytes (slope/α in [−4, 4])",
-    "look-up": "Looking up between views",
+    "look-up": "Looking up between views, in the library",
 }
-# Of each group, BRDF and alpha (or function): how many cases, and the worst of each figure. --json has every case.
+SHADER_TITLES = {
+    "shader bits": "Numbers there and back",
+    "shader level": "Level of the pyramid",
+    "shader decode": "Texel to lobe",
+    "shader position": "Place in a table",
+    "shader frame": "Tangent frames",
+    "shader view": "View in tangent space",
+    "shader widths": "Widths of a set",
+    "shader look-up": "Lobes of any view",
+    "shader reflection": "Reflected light",
+    "shader coat": "Clear coat",
+    "shader diffuse": "Diffuse light",
+    "shader material": "Whole materials",
+    "shader inputs": "Textures of materials",
+    "shader colour": "Colours",
+    "shader half": "Half floats",
+    "shader faces": "Faces of cube maps",
+    "shader panorama": "Panoramas",
+    "shader pyramid": "Levels of the pyramid",
+    "shader views": "Captured views",
+    "shader pack": "Levels as bytes",
+}
+RENDERER_TITLES = {"mobile": "Mobile", "gl_compatibility": "Compatibility", "forward_plus": "Forward+"}
+# Where mediump is rounded as well.
+HALF_RENDERER = "mobile"
+# Of each group, BRDF and alpha (or function or renderer): how many cases, and the worst of each figure. --json has every case.
 COLUMNS = (
     "group",
     "subject",
@@ -37,7 +59,6 @@ COLUMNS = (
     "iterations",
     "fit_error",
     "standard_deviations",
-    "beyond_range",
 )
 
 
@@ -47,29 +68,54 @@ def number(value):
     return f"{value:.2g}" if isinstance(value, float) else str(value)
 
 
+def worst_case(cases):
+    return max(cases, key=lambda case: case["error"] / (case["error_bound"] or math.inf))
+
+
+def worst_energy(cases):
+    energies = [case for case in cases if case["energy_error"] is not None]
+    return max(energies, key=lambda case: case["energy_error"] / case["energy_bound"], default=None)
+
+
+def error_cells(cases):
+    worst = worst_case(cases)
+    if not worst["unit"]:
+        return ["–", "–", "–"]
+    return [f"{number(worst['error'])} ({worst['unit']})", number(worst["error_bound"]), worst["name"]]
+
+
 def table_rows(results):
-    """One row for each group: count, failures, and the worst of each figure relative to its bound."""
-    groups = defaultdict(list)
-    for result in results:
-        groups[result["group"]].append(result)
+    """One row for each group of the library: count, failures, and the worst of each figure relative to its bound."""
     for group, title in GROUP_TITLES.items():
-        cases = groups.pop(group, [])
+        cases = [case for case in results if case["group"] == group]
         if not cases:
             continue
-        worst = max(cases, key=lambda case: case["error"] / (case["error_bound"] or math.inf))
-        energies = [case for case in cases if case["energy_error"] is not None]
-        energy = max(energies, key=lambda case: case["energy_error"] / case["energy_bound"], default=None)
+        energy = worst_energy(cases)
         yield [
             title,
             len(cases),
             sum(not case["passed"] for case in cases),
-            f"{number(worst['error'])} ({worst['unit']})" if worst["unit"] else "–",
-            number(worst["error_bound"]) if worst["unit"] else "–",
-            worst["name"] if worst["unit"] else "–",
+            *error_cells(cases),
             number(energy["energy_error"]) if energy else "–",
             number(energy["energy_bound"]) if energy else "–",
             max(case["iterations"] for case in cases) or "–",
         ]
+
+
+def renderer_of(case):
+    title = RENDERER_TITLES.get(case.get("renderer"), "–")
+    return f"{title}, halves" if case.get("precision") == "half" else title
+
+
+def shader_rows(results):
+    """One row for each group of the shaders and renderer."""
+    for group, title in SHADER_TITLES.items():
+        cases = defaultdict(list)
+        for case in results:
+            if case["group"] == group:
+                cases[renderer_of(case)].append(case)
+        for renderer, some in cases.items():
+            yield [title, renderer, len(some), sum(not case["passed"] for case in some), *error_cells(some)]
 
 
 def markdown_table(header, rows):
@@ -85,24 +131,26 @@ def worst_of(results, group, key):
 def limits(results):
     """Sentences on what storage costs at the extremes, from this run."""
     half = worst_of(results, "storage half", "standard_deviations")
-    byte = worst_of(results, "storage byte", "standard_deviations")
-    beyond = worst_of(results, "storage byte", "beyond_range")
-    single = worst_of(results, "storage float", "standard_deviations")
     fits = [case for case in results if case["group"] == "slice" and case.get("lobes") == 8]
     capped = sum(case["iterations"] >= 200 for case in fits)
     sentences = []
-    for case, form in ((single, "Single precision"), (half, "Half floats"), (byte, "Bytes")):
-        if case:
-            sentences.append(
-                f"{form}: a mean moves by at most {number(case['standard_deviations'])} standard deviations of its"
-                f" lobe ({case['name']})."
-            )
-    if beyond:
+    if half:
         sentences.append(
-            f"Bytes clamp slopes at 4 α: at most {100 * beyond['beyond_range']:.0f} % of a view's energy is in"
-            f" lobes beyond ({beyond['name']}); these are not counted above."
+            f"Half floats: a mean moves by at most {number(half['standard_deviations'])} standard deviations of its lobe"
+            f" ({half['name']})."
         )
     sentences.append(f"{capped} of {len(fits)} fits of eight lobes stop at the limit of iterations.")
+    for precision, title in (("single", "mediump computed with 32 bits"), ("half", "mediump rounded to halves")):
+        seen = [case for case in results if case.get("precision") == precision and case["renderer"] == HALF_RENDERER]
+        cells = []
+        for group, unit in (("shader look-up", "radians"), ("shader reflection", "radiance"), ("shader coat", "radiance")):
+            worst = max((case["largest"].get(unit, 0.0) for case in seen if case["group"] == group), default=None)
+            if worst is not None:
+                cells.append(f"{SHADER_TITLES[group].lower()} {number(worst)} {unit}")
+        widths = [case.get("standard_deviations", 0.0) for case in seen if case["group"] == "shader look-up"]
+        if cells:
+            cells.append(f"a lobe's mean {number(max(widths))} of its standard deviations")
+            sentences.append(f"Largest errors with {title}: {', '.join(cells)}.")
     return sentences
 
 
@@ -120,6 +168,19 @@ def readme(results, pictures):
     ]
     header = ("group", "cases", "failed", "error", "bound", "where", "energy", "bound", "iterations ≤")
     lines += markdown_table(header, table_rows(results))
+    lines += [
+        "",
+        "## The shaders",
+        "",
+        "Functions of the shipped shaders, run in the engine on software drivers, their results read back bit by bit and held"
+        " against 50 digits (levels of the pyramid against double precision). Bounds come from what Vulkan asks of"
+        " single precision, from the filters' eight bits and from the approximations that the shaders state;"
+        " they stand beside the judges in tools/stability. *Halves*: everything that is `mediump` rounded to a"
+        " half float, as phones may; software drivers compute it with 32 bits.",
+        "",
+    ]
+    header = ("group", "renderer", "cases", "failed", "error", "bound", "where")
+    lines += markdown_table(header, shader_rows(results))
     if failed:
         lines += ["", "## Failed", ""] + [f"- {case['name']}: {case['reason']}" for case in failed]
     lines += ["", "## What storage and iterations cost at the extremes", ""]
@@ -133,13 +194,13 @@ def worst_csv(results):
     groups = defaultdict(list)
     for case in results:
         alpha = " ".join(f"{width:g}" for width in case.get("alpha", []))
-        subject = case.get("brdf") or case.get("function", "")
+        subject = case.get("brdf") or case.get("function") or ("renderer" in case and renderer_of(case)) or ""
         groups[case["group"], subject, alpha, case.get("lobes", "")].append(case)
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(COLUMNS)
     for key, cases in groups.items():
-        worst = max(cases, key=lambda case: case["error"] / (case["error_bound"] or math.inf))
+        worst = worst_case(cases)
         row = {"cases": len(cases), "failed": sum(not case["passed"] for case in cases), "unit": worst["unit"]}
         row |= {"error": worst["error"], "error_bound": worst["error_bound"]}
         for name in COLUMNS[9:]:

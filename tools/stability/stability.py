@@ -1,6 +1,7 @@
-"""Runs the native cases of ./dev stability, judges them, and writes JSON, tables and heat maps.
+"""Runs the cases of ./dev stability, judges them, and writes JSON, tables and heat maps.
 
-The native half runs once for each group and prints a line of JSON a case while this half judges the lines before. A
+The native half runs once for each group and prints a line of JSON a case while this half judges the lines before. The
+shaders run in the engine (shader_suite.py), also on the tables that the native half has fitted. A
 group that crashes or says nothing for a while is a failed case of its own. The last line is
 "stability: N passed, N failed"; the exit status is 1 if any failed and 130 after an interruption, which leaves nothing
 behind.
@@ -16,10 +17,11 @@ import threading
 import time
 from pathlib import Path
 
+import shader_suite
 from judge import judge
-from verdict import Verdict, is_finite
+from verdict import is_finite, broken
 
-GROUPS = ("gaussian", "brdf", "step", "slice", "data", "shader", "table")
+GROUPS = ("gaussian", "brdf", "step", "slice", "data", "table", "shader")
 # Seconds without a line after which a group counts as hanging: the longest case takes about one on an idle core.
 SILENCE = 120.0
 
@@ -39,13 +41,6 @@ class Progress:
 
     def end(self, line):
         print(("\r\033[K" if self.terminal else "") + line, file=sys.stderr, flush=True)
-
-
-def broken(group, reason):
-    """A case for a group that did not run to its end."""
-    verdict = Verdict({"name": f"{group}, the whole group"}, group)
-    verdict.require(False, reason)
-    return verdict.done()
 
 
 def native_lines(process, group):
@@ -68,7 +63,8 @@ def native_lines(process, group):
         yield json.loads(line)
 
 
-def run_group(tool, group, quick, progress):
+def run_group(tool, group, quick, progress, records=None):
+    """The verdicts; the records go into `records` too."""
     command = [str(tool.resolve()), group] + (["--quick"] if quick else [])
     results, done, count = [], 0, None
     started = time.monotonic()
@@ -79,6 +75,8 @@ def run_group(tool, group, quick, progress):
                     count = record["cases"]
                     continue
                 results += judge(group, record)
+                if records is not None:
+                    records.append(record)
                 done += 1
                 progress.show(group, done, count)
             status = process.wait(timeout=SILENCE)
@@ -112,9 +110,16 @@ def write_whole(path, text):
 
 def run(arguments):
     progress = Progress()
-    results = []
+    results, tables = [], []
     for group in arguments.group or GROUPS:
-        results += run_group(arguments.tool, group, arguments.quick, progress)
+        if group != "shader":
+            records = tables if group == "table" else None
+            results += run_group(arguments.tool, group, arguments.quick, progress, records)
+    if "shader" in (arguments.group or GROUPS):
+        if not tables:
+            # Not judged here.
+            run_group(arguments.tool, "table", True, progress, tables)
+        results += shader_suite.run(arguments.quick, tables, progress)
     failures = [result for result in results if not result["passed"]]
     for result in failures:
         print(f"  {result['name']}: FAILED, {result['reason']}")

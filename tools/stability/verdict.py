@@ -2,6 +2,7 @@
 
 Each case becomes a dictionary with at least
     name, group, finite, within_energy_bound, energy_error, error, error_bound, iterations, passed, reason
+and those of the shaders renderer and precision ("single", or "half" where mediump was rounded).
 `error` is the largest deviation from the reference in the unit that `unit` names; energy errors are relative to the
 albedo and null where there is no energy. Bounds stand beside the judges that use them, with the reason for their size.
 """
@@ -47,6 +48,8 @@ class Verdict:
             "error": 0.0,
             "error_bound": 0.0,
             "unit": "",
+            # By unit, whatever its bound.
+            "largest": {},
             "iterations": record.get("iterations", 0),
         }
         for key in ("brdf", "alpha", "elevation", "azimuth", "lobes", "nodes_per_axis", "fit_error", "kappa", "method"):
@@ -72,6 +75,8 @@ class Verdict:
             self.reasons.append(f"energy is off by {float(error):.2g}, more than {bound:.2g}")
 
     def error(self, error, bound, unit):
+        error = float(error)
+        self.result["largest"][unit] = max(self.result["largest"].get(unit, 0.0), error)
         if not error / bound <= self.result["error"] / (self.result["error_bound"] or math.inf):
             self.result.update(error=float(error), error_bound=float(bound), unit=unit)
         elif not self.result["unit"]:
@@ -91,3 +96,10 @@ def reference_albedo(brdf, alpha, elevation, azimuth):
     if not error <= 1e-6 * value:
         raise ArithmeticError(f"the quadrature of {brdf} {alpha} at {elevation}, {azimuth} does not converge")
     return value
+
+
+def broken(group, reason):
+    """A case for a group that did not run to its end."""
+    verdict = Verdict({"name": f"{group}, the whole group"}, group)
+    verdict.require(False, reason)
+    return verdict.done()

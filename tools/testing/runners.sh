@@ -52,6 +52,7 @@ jobs_of() {
   local renderer
   case $1 in
     cpp) printf '%s\n' cpp fuzz ;;
+    stability) printf '%s\n' stability stability_changes ;;
     commands) printf '%s\n' commands report report_smoke ;;
     export) printf '%s\n' export_diet export_pictures export_package export_android ;;
     render)
@@ -90,7 +91,7 @@ prepare_tests() {
   need_import
   [[ ! $wanted =~ \ (render_[a-z_]+)\  ]] || bake_demo_tables thesis_8
   [[ $wanted != *" export_android "* ]] || bake_demo_tables "${DEMO_SETS[@]}"
-  [[ $wanted != *" stability "* ]] || need_python stability
+  [[ ! $wanted =~ \ (stability|stability_changes)\  ]] || need_python stability
   [[ $wanted != *" crosscheck "* ]] || need_python crosscheck
   [[ ! $wanted =~ \ (report|report_smoke|commands)\  ]] || need_python report
   # The last one is what PYTHON stays.
@@ -101,6 +102,12 @@ prepare_tests() {
 run_stability() {
   run_logged stability in_time bash "$ROOT/tools/commands/stability.sh" --quick
   judge stability
+}
+
+# That it finds what is changed in a shader.
+run_stability_changes() {
+  run_logged stability-changes in_time "$PYTHON" "$ROOT/tests/commands/stability_test.py"
+  judge stability-changes
 }
 
 # run_suites NAME FOLDER ENGINE…: the suites of a folder; ENGINE is how the engine is called. user:// is this run's own.

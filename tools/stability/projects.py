@@ -1,0 +1,41 @@
+"""Copies of the shaders in a project of their own: changed in one place, or with mediump rounded."""
+
+from probes import ROOT
+
+RUNTIME = "addons/lobelight/runtime"
+SHADERS = f"{RUNTIME}/shaders"
+SCRIPTS = ("canvas_pass.gd", "environment_light.gd", "on_demand.gd", "pyramid.gd")
+PROJECT = """config_version=5
+
+[application]
+
+config/name="Stability"
+
+[rendering]
+
+textures/vram_compression/import_etc2_astc=true
+"""
+
+
+def copy_shaders(project, change, variant=""):
+    """What stability.gd needs, below `project`, or below variants/`variant` in it; returns the folder as res://.
+
+    change(name, text) gives the text of each shader of the run time."""
+    root = f"res://variants/{variant}/" if variant else "res://"
+    folder = project / "variants" / variant if variant else project
+    scripts = [f"{RUNTIME}/{name}" for name in SCRIPTS]
+    sources = [ROOT / name for name in scripts]
+    sources += sorted((ROOT / SHADERS).glob("*.gdshader*"))
+    sources += sorted((ROOT / "bake/stability").rglob("*.gd*"))
+    for source in sources:
+        if source.suffix not in (".gd", ".gdshader", ".gdshaderinc"):
+            continue
+        target = folder / source.relative_to(ROOT)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        text = source.read_text(encoding="utf-8").replace("res://", root)
+        if source.parent.name == "shaders":
+            text = change(source.name, text)
+        target.write_text(text, encoding="utf-8")
+    if not (project / "project.godot").exists():
+        (project / "project.godot").write_text(PROJECT, encoding="utf-8")
+    return root

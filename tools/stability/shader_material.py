@@ -1,0 +1,367 @@
+"""Probes of LobeMaterial3D's whole fragment function."""
+
+import math
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+import exact_shader as shader
+from exact import mpf, normalised, vector
+from probe_textures import LEVELS_SIZE
+from probes import DIVISION, U, Near, Probe, Texture, exp2_error, pow_error, single
+from shader_light import expect_diffuse, sums
+from shader_frames import orthonormal_frame, projection
+from shader_points import light, turn, view_at
+from shader_tables import odd_table
+from shader_values import encode_error
+
+LARGEST = 65504.0
+
+
+@dataclass
+class About:
+    """A number, and how far off it may be in single precision and, beyond that, with halves."""
+
+    value: mpf
+    off: float = 0.0
+    half: float = 0.0
+
+    def __add__(self, other):
+        other = other if isinstance(other, About) else About(mpf(other))
+        value = self.value + other.value
+        return About(value, self.off + other.off + U * abs(float(value)), self.half + other.half)
+
+    def __sub__(self, other):
+        return self + About(-other.value, other.off, other.half)
+
+    def __mul__(self, other):
+        other = other if isinstance(other, About) else About(mpf(other))
+        a, b = abs(float(self.value)), abs(float(other.value))
+        return About(
+            self.value * other.value, a * other.off + b * self.off + U * a * b, a * other.half + b * self.half
+        )
+
+    __rmul__ = __mul__
+    __radd__ = __add__
+
+    def clamped(self, low, high):
+        return About(min(max(self.value, mpf(low)), mpf(high)), self.off, self.half)
+
+
+def fresnel(first, second, f0, f90):
+    """f0 a + (f90 - f0) b."""
+    return f0 * first + (f90 - f0) * second
+
+
+def occlusion(cosine, ao, roughness, cosine_off):
+    """Lagarde and de Rousiers 2014, listing 26."""
+    base, exponent = cosine + ao, mpf(2) ** (-16 * roughness - 1)
+    power = base**exponent
+    relative = pow_error(float(base), float(exponent)) + float(exponent) * (cosine_off + U) / float(base)
+    relative += abs(math.log(float(base))) * float(exponent) * exp2_error(16 * float(roughness) + 1)
+    return About(power - 1 + ao, float(power) * relative + 2 * U).clamped(0, 1)
+
+
+@dataclass
+class Surface:
+    """The uniforms of a material."""
+
+    table: object
+    coat: object = None
+    albedo: tuple = (0.8, 0.5, 0.2)
+    alpha: float = 0.625
+    roughness: float = 0.4
+    metallic: float = 1.0
+    dielectric: tuple | None = None
+    compensated: bool = False
+    emitted: tuple | None = None
+    turned: tuple | None = None
+    anisotropy: float = 0.7
+    normal_scale: float | None = None
+    occluded: bool = False
+
+    def defines(self):
+        names = [*self.table.defines(), "LOBELIGHT_ALPHA"]
+        names += ["LOBELIGHT_DIELECTRIC"] * (self.dielectric is not None)
+        names += ["LOBELIGHT_COMPENSATED"] * self.compensated
+        names += ["LOBELIGHT_EMISSION"] * (self.emitted is not None)
+        names += ["LOBELIGHT_TURNED"] * (self.turned is not None)
+        if self.coat:
+            names.append(f"LOBELIGHT_COAT_LOBES {self.coat.lobes}")
+        if self.occluded:
+            names += ["LOBELIGHT_ORM_TEXTURE", "LOBELIGHT_AO"]
+        if self.normal_scale is not None:
+            names += ["LOBELIGHT_NORMAL_TEXTURE", "LOBELIGHT_FLOWMAP"]
+        if self.occluded or self.normal_scale is not None:
+            names += ["LOBELIGHT_TEXTURED", "LOBELIGHT_SAMPLING filter_nearest, repeat_disable"]
+        return tuple(names)
+
+    def uniforms(self):
+        values = self.table.uniforms() | {
+            "lobelight_albedo": self.albedo,
+            "lobelight_alpha": [self.alpha],
+            "lobelight_roughness": [self.roughness],
+            "lobelight_metallic": [self.metallic],
+            "lobelight_anisotropy": [self.anisotropy],
+        }
+        if self.dielectric:
+            values["lobelight_dielectric"] = self.dielectric
+        if self.emitted:
+            values["lobelight_emitted"] = self.emitted
+        if self.turned:
+            values["lobelight_anisotropy_turn"] = self.turned
+        if self.normal_scale is not None:
+            values["lobelight_normal_scale"] = [self.normal_scale]
+        if self.coat:
+            lookup = self.coat.lookup()
+            values |= {
+                "lobelight_coat_amount": (0.75, 0.3),
+                "lobelight_coat_alpha": self.coat.alpha[:1],
+                "lobelight_coat_lookup": (lookup[0], lookup[1], lookup[3]),
+            }
+        return values
+
+
+def shading_frame(surface, row):
+    """(tangent, bitangent, normal) of the lobes, in view space."""
+    normal = vector(row[:3])
+    frame = orthonormal_frame(normal, vector(row[4:7]), vector(row[8:11]))
+    if surface.normal_scale is not None:
+        # z is what is left to one; the scale mixes the map's normal with the surface's.
+        x, y = (2 * mpf(c) - 1 for c in row[48:50])
+        z = shader.mp.sqrt(max(1 - x * x - y * y, mpf(0)))
+        scale = mpf(surface.normal_scale)
+        normal = normalised(shader.columns_times(frame, (x * scale, y * scale, 1 + scale * (z - 1))))
+    if surface.table.isotropic:
+        tangent = shader.any_tangent(normal)
+        return tangent, shader.cross(normal, tangent), normal
+    direction = vector(surface.turned) if surface.turned else (mpf(1), mpf(0))
+    if surface.normal_scale is not None:
+        flow = tuple(2 * mpf(c) - 1 for c in row[52:54])
+        square = flow[0] ** 2 + flow[1] ** 2
+        if mpf(surface.anisotropy) * mpf(row[55]) > mpf("0.01") and square > mpf("1e-4"):
+            c, s = (f / shader.mp.sqrt(square) for f in flow)
+            direction = (c * direction[0] - s * direction[1], c * direction[1] + s * direction[0])
+    c, s = direction
+    first = shader.plus(shader.scaled(frame[0], c), shader.scaled(frame[1], s))
+    second = shader.minus(shader.scaled(frame[1], c), shader.scaled(frame[0], s))
+    return orthonormal_frame(normal, first, second)
+
+
+def channels(totals, off):
+    """The four sums of a reflection, light by channel."""
+    lights = [[About(totals[n][c], *off[n]) for c in range(3)] for n in (0, 1)]
+    return *lights, About(totals[2], *off[2]), About(totals[3], *off[3])
+
+
+def expect_material(surface, cube, values, row, renderer):
+    normal = vector(row[:3])
+    parallel = row[28 + 15] > 0.5
+    view = (mpf(0), mpf(0), mpf(1)) if parallel else vector(row[12:15])
+    camera = [vector(row[16 + 4 * n : 19 + 4 * n]) for n in range(3)]
+    axes = shading_frame(surface, row)
+    local = tuple(shader.dot(view, axis) for axis in axes)
+
+    def to_environment(direction):
+        return shader.columns_times(camera, shader.columns_times(axes, direction))
+
+    if surface.table.isotropic:
+        axes_there = [shader.columns_times(camera, axis) for axis in axes]
+        tangent = shader.any_tangent(axes_there[2])
+        axes_there = (tangent, shader.cross(axes_there[2], tangent), axes_there[2])
+        local = tuple(shader.dot(shader.columns_times(camera, view), axis) for axis in axes_there)
+
+        def to_environment(direction):
+            return shader.columns_times(axes_there, direction)
+
+    reflection = channels(*sums(surface.table, local, cube, values, to_environment))
+    orm = [mpf(1), mpf(surface.roughness), mpf(surface.metallic if surface.dielectric else 1.0)]
+    if surface.occluded:
+        orm = [a * mpf(b) for a, b in zip(orm, row[44:47])]
+    ao, roughness, metallic = orm
+    base = vector(surface.albedo)
+    d0, d90 = vector(surface.dielectric or (0.0, 1.0))
+    albedo = reflection[2].clamped("0.05", 1e9)
+    slope = 1 / float(albedo.value) ** 2
+    lost = About(
+        1 / albedo.value - 1, albedo.off * slope + DIVISION / float(albedo.value) + 2 * U, albedo.half * slope
+    )
+    o = shader.clamp_view(local)
+    occluded = occlusion(o[2], ao, roughness, 100 * U * 100 ** (float(local[2]) < 0.1)) if surface.occluded else None
+    diffuse = None
+    if surface.dielectric:
+        centre = shader.columns_times(camera, axes[2])
+        tangent = shader.any_tangent(centre)
+        frame = [tangent, shader.cross(centre, tangent), centre]
+        # About the normal the six lie in the view's frame.
+        if surface.table.isotropic:
+            there = shader.columns_times(camera, view)
+            frame[0] = shader.view_of(centre, there)[2]
+            frame[1] = shader.cross(centre, frame[0])
+        else:
+            frame = [shader.columns_times(camera, axis) for axis in axes]
+        diffuse = expect_diffuse(cube, values, [x for axis in frame for x in (*axis, 0)])
+    coat = None
+    if surface.coat:
+        n = shader.columns_times(camera, normal)
+        tangent = shader.any_tangent(n)
+        coat_axes = (tangent, shader.cross(n, tangent), n)
+        seen = tuple(shader.dot(shader.columns_times(camera, view), axis) for axis in coat_axes)
+        coat = channels(
+            *sums(surface.coat, seen, cube, values, lambda d: shader.columns_times(coat_axes, d))
+        )
+    checks = []
+    for c in range(3):
+        f0 = About(d0 * (1 - metallic) + base[c] * metallic, 4 * U) if surface.dielectric else About(base[c])
+        f90 = About(d90 * (1 - metallic) + metallic, 4 * U) if surface.dielectric else About(mpf(1))
+        radiance = fresnel(reflection[0][c], reflection[1][c], f0, f90)
+        if surface.compensated:
+            radiance = radiance * (1 + f0 * lost)
+        if occluded:
+            radiance = radiance * occluded
+        if surface.dielectric:
+            reflected = fresnel(reflection[2], reflection[3], About(d0), About(d90))
+            if surface.compensated:
+                reflected = reflected * (1 + About(d0) * lost)
+            left = (About(mpf(1)) - reflected).clamped(0, 1e9)
+            scattered = About(base[c] * (1 - metallic), 3 * U) * left
+            if surface.occluded:
+                scattered = scattered * ao
+            radiance = radiance + scattered * About(mpf(diffuse[c].exact[0]), diffuse[c].bound, diffuse[c].medium)
+        if coat:
+            share = fresnel(coat[2], coat[3], About(mpf("0.04")), About(mpf(1)))
+            above = fresnel(coat[0][c], coat[1][c], About(mpf("0.04")), About(mpf(1)))
+            radiance = radiance * (About(mpf(1)) - share * mpf("0.75")) + above * mpf("0.75")
+        if renderer == "gl_compatibility":
+            seen = row[28 + 10] > 0
+        else:
+            seen = not parallel or row[28 + 5] < 0
+        radiance = radiance * (mpf(values["energy"]) if seen else 0)
+        if surface.emitted:
+            radiance = radiance + mpf(single(surface.emitted)[c])
+        checks.append(written(c, radiance, renderer, "radiance"))
+        checks.append(written(3 + c, About(base[c]), renderer, "albedo"))
+    checks.append(Near((6,), (metallic,), 4 * U, "metallic"))
+    checks.append(Near((7,), (roughness,), 4 * U, "roughness"))
+    checks.append(Near((8,), (surface.alpha,), U, "alpha"))
+    return checks
+
+
+def written(at, light_, renderer, unit):
+    """As the engine is to be told it: in Compatibility through the inverse of its cubic."""
+    light_ = light_.clamped(0, LARGEST)
+    if renderer != "gl_compatibility":
+        return Near((at,), (light_.value,), light_.off + 1e-12, unit, light_.half)
+    wanted = shader.encoded(light_.value)
+
+    def stretched(off):
+        low, high = max(light_.value - mpf(off), mpf(0)), light_.value + mpf(off)
+        return float(max(wanted - shader.encoded(low), shader.encoded(high) - wanted))
+
+    bound = stretched(light_.off) + float(wanted) * encode_error(max(float(light_.value), 1e-7)) + 1e-9
+    return Near((at,), (wanted,), bound, unit, stretched(light_.half + light_.off))
+
+
+def surfaces():
+    """(name, surface, cube)."""
+    round_table = odd_table("table_material_round", 8, 16, 0, tuple(single((0.15, 0.15))), seed=300)
+    long_table = odd_table("table_material_long", 4, 8, 4, tuple(single((0.3, 0.06))), seed=301)
+    coat = odd_table("table_material_coat", 4, 16, 0, tuple(single((0.05, 0.05))), seed=302)
+    albedo, quarter = tuple(single((0.8, 0.5, 0.2))), tuple(single((math.cos(0.5), math.sin(0.5))))
+    dielectric = tuple(single((0.04, 1.0)))
+    metal = Surface(round_table, albedo=albedo, roughness=0.375)
+    whole = Surface(
+        round_table,
+        coat,
+        albedo,
+        roughness=0.5,
+        metallic=0.75,
+        dielectric=dielectric,
+        compensated=True,
+        emitted=(0.25, 0.0, 4.0),
+        occluded=True,
+    )
+    mapped = Surface(long_table, albedo=albedo, roughness=0.375, anisotropy=0.75, turned=quarter, normal_scale=0.5)
+    plain = Surface(long_table, albedo=albedo, roughness=0.375, dielectric=dielectric, metallic=0.25)
+    return [
+        ("metal", metal, "levels"),
+        ("everything", whole, "levels"),
+        ("everything", whole, "directions"),
+        ("with maps", mapped, "directions"),
+        ("brushed dielectric", plain, "directions"),
+    ]
+
+
+def row_texture(rows, first):
+    """One texel a row, of the four numbers from `first` on."""
+    values = np.array([row[first : first + 4] for row in rows], dtype=np.float32)
+    values = np.pad(values, ((0, max(-len(values) % 64, 128 - len(values))), (0, 0)))
+    return Texture(values.tobytes(), 64, len(values) // 64, is_float=True)
+
+
+def probes(quick):
+    """(tables, textures, probes)."""
+    tables, textures, made = {}, {}, []
+    rng = np.random.default_rng(21)
+    for name, surface, cube in surfaces():
+        tables[surface.table.name] = surface.table
+        values = light(LEVELS_SIZE if cube == "levels" else 1, "disc", 0.0, cube, energy=0.75)
+        title = f"material {name}, {cube}"
+        probe = Probe(
+            title.replace(" ", "_").replace(",", ""),
+            "shader material",
+            "material",
+            9,
+            partial(expect_material, surface, cube, values),
+            light=values,
+            by_renderer=True,
+            has_medium=True,
+        )
+        probe.defines, probe.uniforms = surface.defines(), surface.uniforms()
+        probe.textures = {"lobelight_table": surface.table.name}
+        for elevation in (0.0, 30.0, 70.0, 89.0, 95.0) if quick else (0.0, 0.01, 10, 30, 50, 70, 80, 89, 90, 95, 120):
+            rows = []
+            for azimuth, camera_seed, shot in (
+                (20.0, 0, (False, True)),
+                (140.0, 31, (False, False)),
+                (250.0, 32, (True, True)),
+                (310.0, 33, (True, False)),
+            ):
+                frame = turn(40 + camera_seed)
+                if shot[0]:
+                    # Parallel projections look along z.
+                    tilt = view_at(elevation, azimuth)
+                    frame = [tuple(column) for column in rotation_to(tilt)]
+                view = [sum(frame[n][axis] * x for n, x in enumerate(view_at(elevation, azimuth))) for axis in range(3)]
+                camera = [x for column in turn(camera_seed) for x in (*column, 0)]
+                orm = (*rng.uniform(0.2, 1.0, 3), 1)
+                texels = (*orm, *rng.uniform(0.3, 0.7, 2), 1, 1, *rng.uniform(0, 1, 2), 0, rng.uniform(0.5, 1))
+                rows.append(
+                    (*frame[2], 0, *frame[0], 0, *frame[1], 0, *view, 0, *camera, *projection(*shot), *texels)
+                )
+            probe.add(f"{title}, view {elevation:g}", rows)
+        if surface.coat:
+            tables[surface.coat.name] = surface.coat
+            probe.textures["lobelight_coat_table"] = surface.coat.name
+        for define, uniform, first in (
+            (surface.occluded, "lobelight_orm_texture", 44),
+            (surface.normal_scale is not None, "lobelight_normal_texture", 48),
+            (surface.normal_scale is not None, "lobelight_flowmap", 52),
+        ):
+            if define:
+                textures[f"{probe.name}_{first}"] = row_texture(probe.rows, first)
+                probe.textures[uniform] = f"{probe.name}_{first}"
+        made.append(probe)
+    return list(tables.values()), textures, made
+
+
+def rotation_to(direction):
+    """Columns (tangent, bitangent, normal) of a frame in which `direction` is the axis z of view space."""
+    z = np.array(direction)
+    x = np.cross([0.3, 1.0, 0.2], z)
+    x /= np.linalg.norm(x)
+    y = np.cross(z, x)
+    # The rows of this matrix are view space's axes in the frame; its columns the frame's in view space.
+    return np.array([x, y, z]).T
+
