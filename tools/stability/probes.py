@@ -71,6 +71,8 @@ class Near:
 
     def __post_init__(self):
         self.exact = tuple(float(x) for x in self.exact)
+        # Where nothing may be off, quotients are still to be had.
+        self.bound, self.medium = max(float(self.bound), 1e-300), float(self.medium)
 
     def judge(self, verdict, results, medium):
         off = math.dist([results[n] for n in self.at], self.exact)
@@ -129,7 +131,7 @@ class Probe:
     def add(self, title, rows, **about):
         """A case; what is said about it goes into its verdicts."""
         first = len(self.rows)
-        self.rows += [tuple(single(row)) for row in rows]
+        self.rows += [tuple(single(row).tolist()) for row in rows]
         self.cases.append((title, first, len(self.rows), about))
 
     @property

@@ -43,16 +43,19 @@ def expect_frame(row):
     normal, tangent, bitangent = row[0:3], row[4:7], row[8:11]
     checks = [Near((6, 7, 8), normal, U, "radians")]
     n = vector(normal)
-    square = None
+    slack, falls_back = 40 * U, True
     if all(map(math.isfinite, tangent)):
         across = shader.minus(vector(tangent), shader.scaled(n, dot(n, vector(tangent))))
-        square = dot(across, across)
-    slack = 10 * U * 4
-    if square is not None and mpf("1.1e-8") < square < mpf("0.9e8"):
+        length = float(norm(across))
         # What is left of the tangent is a difference of vectors of its length.
-        slack = 8 * U * (1 + math.hypot(*tangent) / float(mp_sqrt(square))) + INVERSE_SQRT
-        checks.append(Near((0, 1, 2), normalised(across), slack, "radians"))
-    elif square is None or not mpf("0.9e-8") < square < mpf("1.1e8"):
+        lost = 4 * U * math.hypot(*tangent)
+        low, high = max(length - lost, 0.0) ** 2, (length + lost) ** 2
+        falls_back = high < 0.9e-8 or low > 1.1e8
+        if not falls_back:
+            slack = 2 * lost / max(length - lost, 0.9e-4) + 8 * U + INVERSE_SQRT
+            if low > 1.1e-8 and high < 0.9e8:
+                checks.append(Near((0, 1, 2), normalised(across), slack, "radians"))
+    if falls_back:
         # 1 / (1 + |z|) and sums of products.
         checks.append(Near((0, 1, 2), shader.any_tangent(n), DIVISION + 8 * U, "radians"))
     unit = abs(float(norm(n)) - 1.0)
@@ -65,10 +68,6 @@ def expect_frame(row):
 
         checks.append(Holds(handedness))
     return checks
-
-
-def mp_sqrt(x):
-    return x**mpf("0.5")
 
 
 def orthonormal_frame(normal, tangent, bitangent):

@@ -27,7 +27,8 @@ def bits_probe():
     patterns = np.array([int(p, 16) for p in PATTERNS.split()], dtype=np.uint32)
     random = np.random.default_rng(1).integers(0, 2**32, 1024 - patterns.size, dtype=np.uint32)
     probe.patterns = np.concatenate([patterns, random]).reshape(-1, 4)
-    probe.rows = [tuple(row) for row in probe.patterns.view(np.float32).astype(float)]
+    # Of which only the number counts.
+    probe.rows = [(0.0,) * 4] * len(probe.patterns)
     probe.cases = [("bits there and back", 0, len(probe.rows), {})]
     return probe
 
@@ -102,9 +103,8 @@ def nearest_half(at, x, results):
 def half_probe(quick):
     probe = Probe("half", "shader half", "half", 3, expect_half)
     rng = np.random.default_rng(5)
-    exact = rng.integers(0x0400, 0x7C00, 300).astype(np.uint16).view(np.float16).astype(float)
+    exact = rng.integers(0x0400, 0x7BFF, 300).astype(np.uint16).view(np.float16).astype(float)
     between = (exact[:-1] + np.nextafter(exact[:-1].astype(np.float16), np.float16(1e9)).astype(float)) / 2
-    between = between[between < 65504]
     near = np.concatenate([np.nextafter(between.astype(np.float32), np.float32(s)) for s in (0, 1e9)]).astype(float)
     spread = np.exp(rng.uniform(math.log(6.2e-5), math.log(65000), 64 if quick else 4096))
     for title, values in (("halves", exact), ("ties", between), ("next to ties", near), ("any", spread)):
