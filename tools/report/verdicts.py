@@ -10,7 +10,7 @@ TITLE = "Error against run time"
 OTHER_REPORTS = {
     "accuracy": "lobes over more widths and maps, error against fetches for ratios from 1:1 to 1:100",
     "bench": "the fit beside NumPy and SciPy, its error against bake time",
-    "stability": "the fit on its hardest input",
+    "stability": "the fit and the shaders on their hardest input",
     "mobile-cost": "instructions and registers on phones' GPUs",
 }
 DESCRIPTIONS = {
