@@ -53,7 +53,17 @@ TEST_CASE("Primaries: CIE XYZ holds tristimulus values, which no white changes")
   // IEC 61966-2-1, from XYZ to linear sRGB.
   const glm::dmat3 rows(3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570);
   check_matrix(kCieXyz, rows, 3e-3);
-  check_matrix({{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {0.3333, 0.3333}}, rows, 3e-3);
+  // A third, rounded, is a third.
+  const auto rounded = conversion_to_rec709({{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {0.333, 0.333}});
+  REQUIRE(rounded);
+  for (int i = 0; i < 3; ++i) {
+    CHECK(glm::length((*rounded)[i] - (*conversion_to_rec709(kCieXyz))[i]) < 1e-12);
+  }
+  // Values by those of a white (Imf::RGBtoXYZ with it): white becomes that white, not Rec. 709's.
+  const auto d50 = conversion_to_rec709({{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {0.3457, 0.3585}});
+  REQUIRE(d50);
+  const glm::dvec3 white = *conversion_to_rec709(kCieXyz) * glm::dvec3(0.96422, 1.0, 0.82521);
+  CHECK(glm::length(*d50 * glm::dvec3(1.0) - white) < 1e-3);
 }
 
 TEST_CASE("Primaries: sRGB as ICC profiles state it, adapted to D50, is Rec. 709") {

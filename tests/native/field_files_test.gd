@@ -76,3 +76,11 @@ func test_field_files_of_one_picture_are_equal() -> void:
 		assert_bool(read.pixels.slice(0, 3) == PackedFloat32Array([0.0, 0.0, 0.25])).is_true()
 		var last: PackedFloat32Array = read.pixels.slice(-3)
 		assert_bool(last == PackedFloat32Array([0.984375, 0.96875, 0.25])).is_true()
+
+
+func test_comparisons_pass_on_what_is_said() -> void:
+	var cross := Comparison.load_panorama("res://tests/data/field/cross_3x4.hdr")
+	assert_array(cross.keys()).contains_exactly_in_any_order(["texture", "remarks"])
+	assert_str(cross["remarks"][0]).contains("cross_3x4.hdr: is 48 x 64 texels")
+	var wide := Comparison.load_panorama("res://tests/data/field/20000_wide.hdr")
+	assert_str(wide["error"]).contains("20000_wide.hdr: has 20000 texels along a side")

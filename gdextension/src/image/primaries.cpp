@@ -16,7 +16,7 @@ namespace {
 // conversion that differs from the identity by less than this.
 constexpr double kSameColours = 0.005;
 
-// Chromaticities are stored as floats or with three decimals.
+// Chromaticities are written with three decimals, sometimes.
 constexpr double kSameChromaticity = 1e-3;
 
 // XYZ of a chromaticity with Y = 1.
@@ -44,10 +44,18 @@ glm::dmat3 adaptation(const glm::dvec2& from, const glm::dvec2& to) {
   return glm::inverse(kBradford) * scaled * kBradford;
 }
 
+bool are_same(const glm::dvec2& a, const glm::dvec2& b) {
+  return glm::length(a - b) < kSameChromaticity;
+}
+
 bool are_cie_xyz(const Primaries& primaries) {
-  return glm::length(primaries.red - kCieXyz.red) < kSameChromaticity &&
-         glm::length(primaries.green - kCieXyz.green) < kSameChromaticity &&
-         glm::length(primaries.blue - kCieXyz.blue) < kSameChromaticity;
+  return are_same(primaries.red, kCieXyz.red) && are_same(primaries.green, kCieXyz.green) &&
+         are_same(primaries.blue, kCieXyz.blue);
+}
+
+// Tristimulus values without the rounding of a third.
+glm::dmat3 cie_xyz_to_xyz(const Primaries& primaries) {
+  return are_same(primaries.white, kCieXyz.white) ? glm::dmat3(1.0) : to_xyz(primaries);
 }
 
 bool is_identity(const glm::dmat3& matrix) {
@@ -62,9 +70,10 @@ bool is_identity(const glm::dmat3& matrix) {
 }  // namespace
 
 std::optional<glm::dmat3> conversion_to_rec709(const Primaries& primaries) {
-  const glm::dmat3 adapted =
-      are_cie_xyz(primaries) ? glm::dmat3(1.0) : adaptation(primaries.white, kRec709.white);
-  const glm::dmat3 matrix = glm::inverse(to_xyz(kRec709)) * adapted * to_xyz(primaries);
+  const glm::dmat3 xyz = are_cie_xyz(primaries)
+                             ? cie_xyz_to_xyz(primaries)
+                             : adaptation(primaries.white, kRec709.white) * to_xyz(primaries);
+  const glm::dmat3 matrix = glm::inverse(to_xyz(kRec709)) * xyz;
   for (int column = 0; column < 3; ++column) {
     for (int row = 0; row < 3; ++row) {
       // Real spaces stay within a few units; nearly singular ones run away.
