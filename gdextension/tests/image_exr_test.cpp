@@ -186,6 +186,7 @@ TEST_CASE("decode_exr names the channels that it cannot use") {
   };
   refuse({{"A"}}, "has none of the channels R, G, B and Y, but A");
   refuse({{"Z", Imf::FLOAT}}, "R, G, B and Y, but Z");
+  refuse({{" "}}, "R, G, B and Y, but ''");
   refuse({{"a"}, {"b"}, {"c"}, {"d"}, {"e"}, {"f"}, {"g"}, {"h"}}, "a, b, c, d, e, f and 2 more");
 }
 

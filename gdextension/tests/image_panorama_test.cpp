@@ -160,6 +160,10 @@ TEST_CASE("Panorama::expose caps, and says how much of the light goes") {
     Panorama again{1, 1, {1e6f, 1e6f, 1e6f}};
     CHECK(again.expose(std::stod(text.substr(text.find("Exposure of ") + 12))) == 0);
   }
+  Panorama absurd{1, 1, {1e30f, 1e30f, 1e30f}};
+  CHECK(absurd.expose(0.0) == 1);
+  CHECK(absurd.warnings.at(0).find(
+            "more than 99.9 % of the light is lost; no Exposure keeps all") != std::string::npos);
 }
 
 TEST_CASE("check_proportions warns of what is hardly a panorama") {

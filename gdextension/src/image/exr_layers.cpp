@@ -43,7 +43,8 @@ std::string enumerate(const Names& names) {
   std::string text;
   int count = 0;
   for (const std::string& name : names) {
-    if (count < kShown) text += (count == 0 ? "" : ", ") + one_line(name);
+    const std::string shown = one_line(name);
+    if (count < kShown) text += (count == 0 ? "" : ", ") + (shown.empty() ? "''" : shown);
     ++count;
   }
   if (count > kShown) text += " and " + std::to_string(count - kShown) + " more";

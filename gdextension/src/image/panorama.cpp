@@ -17,6 +17,9 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+// Of what importing a panorama offers.
+constexpr double kLeastExposure = -16.0;
+
 // NaN counts as 0 here too.
 double light(float value) {
   return value > 0.0f ? static_cast<double>(value == kInfinity ? kLargestHalf : value) : 0.0;
@@ -27,11 +30,23 @@ std::string texels(std::size_t count, const char* one, const char* many) {
   return count == 1 ? std::string("1 texel ") + one : std::to_string(count) + " texels " + many;
 }
 
-// "12.3 %", never "0.0 %".
+// "12.3 %", never "0.0 %" or "100.0 %".
 std::string percent(double share) {
   if (share < 0.001) return "less than 0.1 %";
+  if (share > 0.999) return "more than 99.9 %";
   char text[32];
   std::snprintf(text, sizeof text, "%.1f %%", 100.0 * share);
+  return text;
+}
+
+// What of `exposure` keeps light as bright as `brightest`, in a sentence.
+std::string exposure_hint(double exposure, double brightest) {
+  const double needed = exposure - std::log2(brightest / static_cast<double>(kLargestHalf));
+  if (needed < kLeastExposure) return "no Exposure keeps all of it";
+  char text[64];
+  // Rounded towards what keeps everything.
+  std::snprintf(text, sizeof text, "an Exposure of %.1f EV keeps it",
+                std::floor(10.0 * needed) / 10.0);
   return text;
 }
 
@@ -140,15 +155,11 @@ std::size_t Panorama::expose(double exposure) {
     }
   }
   if (capped > 0) {
-    const double needed = exposure - std::log2(brightest / static_cast<double>(kLargestHalf));
-    char hint[64];
-    // Rounded towards what keeps everything.
-    std::snprintf(hint, sizeof hint, "an Exposure of %.1f EV", std::floor(10.0 * needed) / 10.0);
     warnings.push_back("has " +
                        texels(capped, "that is brighter than 65504 and has",
                               "that are brighter than 65504 and have") +
-                       " that now: " + percent(lost / all) + " of the light is lost; " + hint +
-                       " keeps it");
+                       " that now: " + percent(lost / all) + " of the light is lost; " +
+                       exposure_hint(exposure, brightest));
   }
   return capped;
 }
