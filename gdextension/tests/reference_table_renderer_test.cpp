@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "brdf/ggx.h"
 #include "fit/table_fitter.h"
 #include "image/synthetic_panorama.h"
 #include "reference/sphere_renderer.h"
@@ -98,6 +99,59 @@ TEST_CASE("more lobes come nearer to the reference") {
     before = psnr;
   }
   CHECK(before > 36.0);
+}
+
+namespace {
+
+// GGX in a colour; sampled as what it is by its mean.
+class Tinted final : public Brdf {
+ public:
+  Tinted(const glm::dvec2& alpha, const glm::dvec3& tint)
+      : Brdf(alpha), grey_(alpha), tint_(tint), mean_((tint.x + tint.y + tint.z) / 3.0) {}
+
+  double evaluate(const glm::dvec3& i, const glm::dvec3& o) const override {
+    return mean_ * grey_.evaluate(i, o);
+  }
+  glm::dvec3 evaluate_rgb(const glm::dvec3& i, const glm::dvec3& o) const override {
+    return tint_ * grey_.evaluate(i, o);
+  }
+  std::optional<BrdfSample> sample(const glm::dvec3& o, const glm::dvec2& u) const override {
+    auto drawn = grey_.sample(o, u);
+    if (drawn) drawn->weight *= mean_;
+    return drawn;
+  }
+  double pdf(const glm::dvec3& i, const glm::dvec3& o) const override { return grey_.pdf(i, o); }
+  std::string_view name() const override { return "tinted"; }
+  bool is_coloured() const override { return true; }
+
+ private:
+  Ggx grey_;
+  glm::dvec3 tint_;
+  double mean_;
+};
+
+}  // namespace
+
+TEST_CASE("a coloured table is judged by its colours") {
+  const Panorama panorama = synthetic_panorama();
+  const GaussianConvolution light(panorama);
+  SphereOptions options;
+  options.size = 16;
+  options.samples = 256;
+  Recipe recipe;
+  recipe.lobes = 8;
+  recipe.views = {8, 1};
+  const auto psnr = [&](const Brdf& brdf) {
+    Progress progress;
+    const LobeTable table = fit_table(brdf, recipe, progress, nullptr);
+    const auto reference = render_sphere(panorama, brdf, options, progress).radiance;
+    return sphere_psnr(render_table(light, table, 16, 0, progress), reference, 16);
+  };
+  const glm::dvec2 alpha(0.3);
+  const double grey = psnr(Ggx(alpha));
+  CHECK(grey > 30.0);
+  // Exposure goes by the picture's own median, so that a tint costs next to nothing.
+  CHECK(psnr(Tinted(alpha, {0.9, 0.45, 0.1})) > grey - 3.0);
 }
 
 TEST_CASE("the error of two pictures is the contract's") {

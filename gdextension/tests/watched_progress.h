@@ -23,11 +23,14 @@ constexpr double kPrompt = 0.2;
 // cancels the work at one of the times that they ask.
 class WatchedProgress : public Progress {
  public:
-  // Cancels at check number `at`, counted from 0; −1: never.
-  explicit WatchedProgress(long at = -1) : at_(at) { last() = {this, thread_seconds()}; }
+  // Cancels at check number `at`, counted from 0 on once the progress is at `from`; −1: never.
+  explicit WatchedProgress(long at = -1, double from = 0.0) : at_(at), from_(from) {
+    last() = {this, thread_seconds()};
+  }
 
   bool cancelled() const noexcept override {
     note();
+    if (fraction() < from_) return Progress::cancelled();
     if (checks_++ >= at_ && at_ >= 0) return true;
     return Progress::cancelled();
   }
@@ -62,6 +65,7 @@ class WatchedProgress : public Progress {
   }
 
   long at_;
+  double from_;
   mutable std::atomic<long> checks_{0};
   mutable std::atomic<double> longest_{0.0};
 };

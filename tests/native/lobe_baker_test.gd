@@ -134,6 +134,20 @@ func test_slice_in_plane_is_the_brdf_times_the_cosine() -> void:
 	assert_float(fine[1]).is_equal_approx(1.0 / (4.0 * PI * 0.04), 1e-4)
 
 
+func test_plots_take_the_widths_that_bakes_take() -> void:
+	# A Vector2's 1e-4 is a little less than 0.0001.
+	for width: float in [1e-4, 0.1, 2.0]:
+		var alpha := Vector2(width, width)
+		var baked := LobeBaker.new().bake({"alpha": alpha, "lobes": 1, "views": [2, 1]})
+		assert_str(baked.get("error", "")).is_empty()
+		var albedo := LobeBaker.directional_albedo("ward", alpha, Vector3(0, 0, 1))
+		assert_float(albedo).is_between(0.05, 1.01)
+		var slice := LobeBaker.slice_in_plane("ward", alpha, Vector3(0, 0, 1), 3)
+		assert_int(slice.size()).is_equal(3)
+		# Ward 1992 at normal incidence.
+		assert_float(slice[1] * 4.0 * PI * width * width).is_equal_approx(1.0, 1e-5)
+
+
 func test_slice_is_refused_for_what_cannot_be(
 	brdf: String, alpha: Vector2, view: Vector3, message: String, _test_parameters := ALBEDO_REFUSED
 ) -> void:
@@ -296,6 +310,18 @@ func test_auto_says_what_it_cannot_do() -> void:
 		[{"environments": []}, 'environments goes with lobes "auto" only.'],
 	]:
 		assert_str(LobeBaker.new().bake(wrong[0]).get("error", "")).contains(wrong[1])
+
+
+func test_a_bake_that_would_not_fit_is_refused_at_once() -> void:
+	var recipe := {"widths": range(1, 65).map(func(n: int) -> float: return 0.03 * n)}
+	recipe.merge({"lobes": 32, "views": [256, 256]})
+	var baker := LobeBaker.new()
+	assert_bool(baker.start(recipe)).is_false()
+	var message := baker.get_error()
+	assert_str(message).contains("widths has 64 numbers, lobes is 32 and views is (256, 256)")
+	_assert_one_sentence(message)
+	assert_str(LobeBaker.new().bake(recipe).error).is_equal(message)
+	assert_str(LobeBaker.new().refit(recipe, PackedByteArray(), 0).error).is_equal(message)
 
 
 func test_long_values_are_cut_in_messages() -> void:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <exception>
 
 namespace lobelight {
@@ -61,6 +62,11 @@ class Progress {
 // For work that may be given no progress.
 inline void throw_if_cancelled(const Progress* progress) {
   if (progress) progress->throw_if_cancelled();
+}
+
+// The same, but at every 65536th index only, for loops over texels.
+inline void throw_if_cancelled(const Progress* progress, std::size_t index) {
+  if (index % 65536 == 0) throw_if_cancelled(progress);
 }
 
 }  // namespace lobelight

@@ -63,9 +63,13 @@ const std::vector<std::string>& brdf_names();
 constexpr double kMinAlpha = 1e-4;
 constexpr double kMaxAlpha = 2.0;
 
+// Throws std::invalid_argument with a whole sentence for a name that make_brdf() does not know and
+// for widths that it refuses; the one place that says which ones are valid. Files are not read.
+void validate_brdf(std::string_view name, const glm::dvec2& alpha);
+
 // The model called `name`, or the measurements in the file of that path (is_measured_file()).
-// Throws std::invalid_argument with a whole sentence for a name that brdf_names() does not list and
-// for a width that is not in [kMinAlpha, kMaxAlpha], and MeasuredFileError. For files, `alpha` may
+// Throws what validate_brdf() does for a name that brdf_names() does not list and for a width that
+// is not in [kMinAlpha, kMaxAlpha], and MeasuredFileError. For files, `alpha` may
 // be (0, 0): the widths are then estimated; what a file reflects does not depend on them. Files
 // take a while to read: throws Cancelled when `progress`, which may be null, is cancelled.
 std::unique_ptr<Brdf> make_brdf(std::string_view name, const glm::dvec2& alpha,

@@ -125,9 +125,9 @@ void validate_material(const Recipe& recipe, const glm::dvec2& alpha, bool isotr
 
 void validate(const Recipe& recipe) {
   validate_counts(recipe);
+  validate_brdf(recipe.brdf, recipe.alpha);
   if (is_measured_file(recipe.brdf)) return;
-  const auto brdf = make_brdf(recipe.brdf, recipe.alpha);  // refuses unknown names, widths
-  validate_material(recipe, brdf->alpha(), brdf->is_isotropic());
+  validate_material(recipe, recipe.alpha, recipe.alpha.x == recipe.alpha.y);
 }
 
 LobeTable fit_table(const Brdf& brdf, const Recipe& recipe, Progress& progress, FitReport* report,

@@ -1,28 +1,14 @@
 #include "godot/convert.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <stdexcept>
-#include <type_traits>
+
+#include "base/as_written.h"
+#include "godot/pack.h"
 
 namespace lobelight {
-
-namespace {
-
-template <class Packed, class Element>
-Packed pack(const std::vector<Element>& values) {
-  Packed packed;
-  packed.resize(static_cast<std::int64_t>(values.size()));
-  auto* target = packed.ptrw();
-  using Target = std::remove_pointer_t<decltype(target)>;
-  std::transform(values.begin(), values.end(), target,
-                 [](Element value) { return static_cast<Target>(value); });
-  return packed;
-}
-
-}  // namespace
 
 std::string to_std(const godot::String& text) {
   const godot::CharString bytes = text.utf8();
@@ -53,11 +39,16 @@ godot::PackedFloat32Array to_godot(const std::vector<double>& values) {
 
 godot::PackedByteArray to_bytes(const std::vector<std::uint16_t>& halves) {
   const std::size_t size = halves.size() * sizeof(halves[0]);
-  godot::PackedByteArray bytes;
-  bytes.resize(static_cast<std::int64_t>(size));
+  godot::PackedByteArray bytes = sized<godot::PackedByteArray>(size);
   if (size > 0) std::memcpy(bytes.ptrw(), halves.data(), size);
   return bytes;
 }
+
+glm::dvec2 to_widths(const godot::Vector2& value) {
+  return {as_written(static_cast<float>(value.x)), as_written(static_cast<float>(value.y))};
+}
+
+glm::dvec3 to_core(const godot::Vector3& value) { return {value.x, value.y, value.z}; }
 
 std::string file_system_path(const godot::String& path) {
   if (to_std(path).empty()) throw std::invalid_argument("The path is empty.");

@@ -1,13 +1,9 @@
 #include "godot/lobe_reference.h"
 
-#include <chrono>
-
-#include "brdf/brdf.h"
+#include "bake/sphere.h"
 #include "brdf/measured.h"
 #include "godot/convert.h"
 #include "godot/request.h"
-#include "image/panorama.h"
-#include "reference/sphere_renderer.h"
 
 using namespace godot;
 
@@ -15,49 +11,34 @@ namespace lobelight {
 
 namespace {
 
-struct SphereRequest {
-  std::string env;
-  std::string path;  // env, as the file system knows it
-  std::shared_ptr<const Brdf> brdf;
-  SphereOptions options;
-};
-
-SphereRequest read_request(const Dictionary& values) {
-  const Request request(values, "a sphere to render",
-                        {"env", "brdf", "alpha", "size", "samples", "seed", "threads"});
+SphereRequest read_request(const Request& request) {
   SphereRequest sphere;
-  sphere.env = request.required_text("env");
-  sphere.path = file_system_path(to_godot(sphere.env));
-  std::string brdf = request.text("brdf", "ward");
-  if (is_measured_file(brdf)) brdf = file_system_path(to_godot(brdf));
-  sphere.brdf = make_brdf(brdf, request.widths("alpha", {0.1, 0.1}));
+  sphere.environment = file_system_path(to_godot(request.required_text("env")));
+  sphere.brdf = request.text("brdf", sphere.brdf);
+  if (is_measured_file(sphere.brdf)) sphere.brdf = file_system_path(to_godot(sphere.brdf));
+  sphere.alpha = request.widths("alpha", sphere.alpha);
   SphereOptions& options = sphere.options;
   options.size = request.integer("size", options.size);
   options.samples = request.integer("samples", options.samples);
   options.seed = request.unsigned_integer("seed", options.seed);
   options.threads = request.integer("threads", options.threads);
-  validate(options);
+  validate(sphere);
   return sphere;
 }
 
-Dictionary render(const SphereRequest& sphere, Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
-  Panorama panorama = load_panorama(sphere.path);
-  const std::size_t clamped = panorama.sanitise();
-  const SphereImage image =
-      lobelight::render_sphere(panorama, *sphere.brdf, sphere.options, progress);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+Dictionary to_dictionary(const SpherePicture& picture, const std::string& env,
+                         const SphereOptions& options) {
   Dictionary result;
-  result["env"] = to_godot(sphere.env);
-  result["brdf"] = to_godot(sphere.brdf->name());
-  result["alpha"] = to_godot(sphere.brdf->alpha());
-  result["size"] = image.size;
-  result["samples"] = sphere.options.samples;
-  result["seed"] = sphere.options.seed;
-  result["pixels"] = to_godot(image.radiance);
-  result["standard_error"] = to_godot(image.standard_error);
-  result["clamped"] = static_cast<std::int64_t>(clamped);
-  result["seconds"] = elapsed.count();
+  result["env"] = to_godot(env);
+  result["brdf"] = to_godot(picture.brdf);
+  result["alpha"] = to_godot(picture.alpha);
+  result["size"] = picture.image.size;
+  result["samples"] = options.samples;
+  result["seed"] = options.seed;
+  result["pixels"] = to_godot(picture.image.radiance);
+  result["standard_error"] = to_godot(picture.image.standard_error);
+  result["clamped"] = static_cast<std::int64_t>(picture.clamped);
+  result["seconds"] = picture.seconds;
   return result;
 }
 
@@ -70,7 +51,11 @@ void LobeReference::_bind_methods() {
 Dictionary LobeReference::render_sphere(const Dictionary& options) const { return run(options); }
 
 LobeTask::Work LobeReference::prepare(const Dictionary& options) const {
-  return [sphere = read_request(options)](Progress& progress) { return render(sphere, progress); };
+  const Request request(options, "a sphere to render",
+                        {"env", "brdf", "alpha", "size", "samples", "seed", "threads"});
+  return [env = request.required_text("env"), sphere = read_request(request)](Progress& progress) {
+    return to_dictionary(render_picture(sphere, progress), env, sphere.options);
+  };
 }
 
 }  // namespace lobelight

@@ -41,36 +41,49 @@ void LobeTask::_bind_methods() {
 }
 
 bool LobeTask::start(const Dictionary& request) {
-  collect();
-  // The signal of the run before comes first, if it is still on its way.
-  std::int64_t previous;
+  // Without the lock, under which everybody else would wait for it.
+  Work work;
+  std::string refusal;
+  try {
+    work = prepare(request);
+  } catch (...) {
+    refusal = sentence(std::current_exception());
+  }
+
+  bool started = false;
+  std::shared_ptr<const Outcome> before;
   {
     const std::lock_guard lock(mutex_);
-    previous = run_;
-  }
-  _deliver(previous);
-
-  const std::lock_guard lock(mutex_);
-  if (work_) {
-    outcome_->error = "The task is running already; cancel it or wait until it has finished.";
-    return false;
-  }
-  auto outcome = std::make_shared<Outcome>();
-  outcome_ = outcome;
-  last_progress_ = 0.0;
-  try {
-    const Work work = prepare(request);
-    const std::int64_t run = ++run_;
-    const Callable deliver(this, "_deliver");
-    work_ = std::make_unique<BackgroundWork>(
-        [work, outcome](Progress& progress) { outcome->result = work(progress); },
-        [deliver, run] { deliver.call_deferred(run); });
-    return true;
-  } catch (...) {
-    outcome->error = sentence(std::current_exception());
+    collect_locked();
+    if (work_) {
+      outcome_->error = "The task is running already; cancel it or wait until it has finished.";
+      return false;
+    }
+    // The signal of the run before, if it is still on its way.
+    if (undelivered_) before = outcome_;
+    undelivered_ = false;
+    auto outcome = std::make_shared<Outcome>();
+    outcome_ = outcome;
+    last_progress_ = 0.0;
+    outcome->error = refusal;
     outcome->kind = Outcome::Kind::kFailed;
-    return false;
+    if (work) {
+      const std::int64_t run = ++run_;
+      const Callable deliver(this, "_deliver");
+      try {
+        work_ = std::make_unique<BackgroundWork>(
+            [work, outcome](Progress& progress) { outcome->result = work(progress); },
+            [deliver, run] { deliver.call_deferred(run); });
+        started = true;
+      } catch (const std::system_error&) {
+        outcome->error = "The system grants no thread to work on.";
+      } catch (...) {
+        outcome->error = sentence(std::current_exception());
+      }
+    }
   }
+  if (before) announce(*before);
+  return started;
 }
 
 void LobeTask::cancel() {
@@ -113,6 +126,10 @@ Dictionary LobeTask::run(const Dictionary& request) const {
 
 void LobeTask::collect() {
   const std::lock_guard lock(mutex_);
+  collect_locked();
+}
+
+void LobeTask::collect_locked() {
   if (!work_ || !work_->finished()) return;
   Progress& progress = work_->progress();
   if (progress.cancelled()) {
@@ -146,13 +163,16 @@ void LobeTask::_deliver(std::int64_t run) {
     undelivered_ = false;
     outcome = outcome_;
   }
-  // Last: what is connected may start the next run, or let go of this object.
-  switch (outcome->kind) {
+  announce(*outcome);
+}
+
+void LobeTask::announce(const Outcome& outcome) {
+  switch (outcome.kind) {
     case Outcome::Kind::kFinished:
-      emit_signal("finished", outcome->result);
+      emit_signal("finished", outcome.result);
       break;
     case Outcome::Kind::kFailed:
-      emit_signal("failed", to_godot(outcome->error));
+      emit_signal("failed", to_godot(outcome.error));
       break;
     case Outcome::Kind::kCancelled:
       emit_signal("cancelled");

@@ -38,8 +38,8 @@ class LobeTask : public godot::RefCounted {
   // Makes the result; called on any thread. May throw: Cancelled, or what() is a sentence.
   using Work = std::function<godot::Dictionary(Progress&)>;
 
-  // Reads and checks a request, quickly, on the caller's thread. Throws std::invalid_argument with
-  // one sentence.
+  // Reads and checks a request, quickly and without a look at files, on the caller's thread. Throws
+  // std::invalid_argument with one sentence.
   virtual Work prepare(const godot::Dictionary& request) const = 0;
 
   // Does the work on the caller's thread. Gives the result or {"error": sentence}.
@@ -55,8 +55,12 @@ class LobeTask : public godot::RefCounted {
   // Emits the signal of run number `run` if that has not been done. Bound, so that the worker can
   // post it; its name keeps it out of the class reference.
   void _deliver(std::int64_t run);
-  // Takes up the outcome of work that has ended.
+  // Emits the signal of an outcome. Nothing of this object may be used after it: what is connected
+  // may let go of it.
+  void announce(const Outcome& outcome);
+  // Takes up the outcome of work that has ended; the second for those who hold the mutex.
   void collect();
+  void collect_locked();
 
   std::mutex mutex_;  // guards everything below
   std::int64_t run_ = 0;

@@ -1,15 +1,13 @@
 #include "godot/request.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <godot_cpp/variant/variant.hpp>
 #include <limits>
-#include <locale>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
+#include "base/as_written.h"
 #include "godot/convert.h"
 
 namespace lobelight {
@@ -68,19 +66,6 @@ std::optional<int> small_number(const Variant& value) {
     return std::nullopt;
   }
   return static_cast<int>(*wide);
-}
-
-// The decimal number that `value` was written as. Vector2 holds single precision: its 0.1 is
-// 0.10000000149, and a recipe should mean the same however its 0.1 is passed.
-double as_written(float value) {
-  if (!std::isfinite(value)) return value;
-  char digits[32];
-  const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, value);
-  std::istringstream stream(std::string(digits, end.ptr));
-  stream.imbue(std::locale::classic());
-  double decimal = value;
-  stream >> decimal;
-  return decimal;
 }
 
 struct Two {

@@ -27,7 +27,8 @@ double sample_tent(double u) {
 }
 
 // Brightness above the map's geometric mean times the sine of the polar angle, for each texel.
-std::vector<double> texel_weights(const std::vector<glm::vec4>& texels, int width, int height) {
+std::vector<double> texel_weights(const std::vector<glm::vec4>& texels, int width, int height,
+                                  const Progress* progress) {
   // Black texels count as much darker than any that matters, not as −∞.
   constexpr double kBlack = 1e-30;
   std::vector<double> weights(texels.size());
@@ -38,12 +39,14 @@ std::vector<double> texel_weights(const std::vector<glm::vec4>& texels, int widt
   double sum = 0.0;
   double area = 0.0;
   for (std::size_t i = 0; i < texels.size(); ++i) {
+    throw_if_cancelled(progress, i);
     sum += std::log(std::max(brightness(texels[i]), kBlack)) * sine(i);
     area += sine(i);
   }
   // Rounding alone must not lift texels of a constant panorama above its mean.
   const double mean = (1.0 + 1e-9) * std::exp(sum / area);
   for (std::size_t i = 0; i < texels.size(); ++i) {
+    throw_if_cancelled(progress, i);
     weights[i] = std::max(0.0, brightness(texels[i]) - mean) * sine(i);
   }
   return weights;
@@ -51,21 +54,24 @@ std::vector<double> texel_weights(const std::vector<glm::vec4>& texels, int widt
 
 }  // namespace
 
-EnvironmentDistribution::EnvironmentDistribution(const Panorama& panorama)
+EnvironmentDistribution::EnvironmentDistribution(const Panorama& panorama, const Progress* progress)
     : width_(panorama.width), height_(panorama.height) {
   if (width_ < 1 || height_ < 1 ||
       panorama.rgb.size() !=
           3 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {
     throw std::invalid_argument("A panorama needs at least one texel and three values in each.");
   }
-  Panorama clean = panorama;
-  clean.sanitise();
-  texels_.resize(clean.rgb.size() / 3);
+  const auto light = [&](std::size_t n) {
+    const float value = panorama.rgb[n];
+    return value > 0.0f && std::isfinite(value) ? value : 0.0f;
+  };
+  texels_.resize(panorama.rgb.size() / 3);
   for (std::size_t i = 0; i < texels_.size(); ++i) {
-    texels_[i] = {clean.rgb[3 * i], clean.rgb[3 * i + 1], clean.rgb[3 * i + 2], 0.0f};
+    throw_if_cancelled(progress, i);
+    texels_[i] = {light(3 * i), light(3 * i + 1), light(3 * i + 2), 0.0f};
   }
-  const std::vector<double> weights = texel_weights(texels_, width_, height_);
-  light_ = make_light_clusters(width_, height_, weights, kClusters);
+  const std::vector<double> weights = texel_weights(texels_, width_, height_, progress);
+  light_ = make_light_clusters(width_, height_, weights, kClusters, progress);
   if (light_.clusters.empty()) return;
   // A tent of height 1 integrates to 1/(width · height) over the unit square.
   for (std::size_t k = 0; k < light_.order.size(); ++k) {

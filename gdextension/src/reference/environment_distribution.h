@@ -6,6 +6,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "base/progress.h"
 #include "image/panorama.h"
 #include "reference/light_clusters.h"
 
@@ -36,9 +37,10 @@ struct ClusterChoice {
 // weights, just as the radiance is that of values, and positive wherever a bright texel reaches.
 class EnvironmentDistribution {
  public:
-  // Copies what it needs. Negative and non-finite values count as 0. Throws std::invalid_argument
-  // when the panorama is empty or its sizes do not fit together.
-  explicit EnvironmentDistribution(const Panorama& panorama);
+  // Copies what it needs, 38 bytes for each texel while it is made and 30 later. Negative and
+  // non-finite values count as 0. Throws std::invalid_argument when the panorama is empty or its
+  // sizes do not fit together, and Cancelled when `progress`, which may be null, is cancelled.
+  explicit EnvironmentDistribution(const Panorama& panorama, const Progress* progress = nullptr);
 
   // Empty for a constant panorama, where nothing stands out.
   const std::vector<LightCluster>& clusters() const { return light_.clusters; }

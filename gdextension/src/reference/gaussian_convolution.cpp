@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "base/pi.h"
 
@@ -26,7 +27,8 @@ constexpr double kDark = 1e-12;
 
 }  // namespace
 
-GaussianConvolution::GaussianConvolution(const Panorama& panorama) : panorama_(panorama) {
+GaussianConvolution::GaussianConvolution(Panorama panorama, const Progress* progress)
+    : panorama_(std::move(panorama)) {
   panorama_.sanitise();
   Level level;
   level.width = panorama_.width;
@@ -34,57 +36,68 @@ GaussianConvolution::GaussianConvolution(const Panorama& panorama) : panorama_(p
   level.angle = kPi / level.height;
   // Bilinear interpolation spreads a texel by a triangle of variance angle² / 6.
   level.variance = level.angle * level.angle / 6.0;
-  for (std::size_t n = 0; n < panorama_.rgb.size(); n += 3) {
-    level.radiance.emplace_back(panorama_.rgb[n], panorama_.rgb[n + 1], panorama_.rgb[n + 2]);
-  }
+  level.radiance.reserve(panorama_.rgb.size() / 3);
+  level.direction.reserve(panorama_.rgb.size() / 3);
+  const float* texel = panorama_.rgb.data();
   for (int row = 0; row < level.height; ++row) {
-    for (int column = 0; column < level.width; ++column) {
+    throw_if_cancelled(progress);
+    for (int column = 0; column < level.width; ++column, texel += 3) {
+      level.radiance.emplace_back(texel[0], texel[1], texel[2]);
       level.direction.push_back(
           panorama_direction({(column + 0.5) / level.width, (row + 0.5) / level.height}));
     }
   }
-  const double finest = level.angle;
-  const double tent = level.variance;
-  for (;;) {
-    level.solid_angle.clear();
-    for (int row = 0; row < level.height; ++row) {
-      level.solid_angle.push_back(
-          2.0 * kPi / level.width *
-          (std::cos(row * level.angle) - std::cos((row + 1) * level.angle)));
-    }
-    levels_.push_back(level);
-    if (level.width % 2 != 0 || level.height % 2 != 0 || level.height < 16) break;
+  set_solid_angles(level);
+  levels_.push_back(std::move(level));
+  while (levels_.back().width % 2 == 0 && levels_.back().height % 2 == 0 &&
+         levels_.back().height >= 16) {
+    levels_.push_back(coarser(levels_.front(), levels_.back(), progress));
+  }
+}
 
-    const Level& finer = levels_.back();
-    level.width /= 2;
-    level.height /= 2;
-    level.angle *= 2.0;
-    // The texels that became one lie this far from its centre.
-    level.variance = tent + (level.angle * level.angle - finest * finest) / 12.0;
-    level.radiance.clear();
-    level.direction.clear();
-    for (int row = 0; row < level.height; ++row) {
-      for (int column = 0; column < level.width; ++column) {
-        glm::dvec3 sum(0.0);
-        double mass = 0.0;
-        // A small light stays where it is, not in the middle of a coarse texel.
-        glm::dvec3 centre(0.0);
-        for (int part = 0; part < 4; ++part) {
-          const int r = 2 * row + part / 2;
-          const int c = 2 * column + part % 2;
-          const double weight = finer.solid_angle[static_cast<std::size_t>(r)];
-          const auto texel = static_cast<std::size_t>(r * finer.width + c);
-          const glm::dvec3& radiance = finer.radiance[texel];
-          sum += weight * radiance;
-          mass += weight;
-          centre +=
-              weight * (radiance.r + radiance.g + radiance.b + kDark) * finer.direction[texel];
-        }
-        level.radiance.push_back(sum / mass);
-        level.direction.push_back(glm::normalize(centre));
+void GaussianConvolution::set_solid_angles(Level& level) {
+  for (int row = 0; row < level.height; ++row) {
+    level.solid_angle.push_back(2.0 * kPi / level.width *
+                                (std::cos(row * level.angle) - std::cos((row + 1) * level.angle)));
+  }
+}
+
+GaussianConvolution::Level GaussianConvolution::coarser(const Level& finest, const Level& finer,
+                                                        const Progress* progress) {
+  Level level;
+  level.width = finer.width / 2;
+  level.height = finer.height / 2;
+  level.angle = 2.0 * finer.angle;
+  // The texels that became one lie this far from its centre.
+  level.variance =
+      finest.variance + (level.angle * level.angle - finest.angle * finest.angle) / 12.0;
+  const std::size_t texels =
+      static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
+  level.radiance.reserve(texels);
+  level.direction.reserve(texels);
+  for (int row = 0; row < level.height; ++row) {
+    throw_if_cancelled(progress);
+    for (int column = 0; column < level.width; ++column) {
+      glm::dvec3 sum(0.0);
+      double mass = 0.0;
+      // A small light stays where it is, not in the middle of a coarse texel.
+      glm::dvec3 centre(0.0);
+      for (int part = 0; part < 4; ++part) {
+        const auto r = static_cast<std::size_t>(2 * row + part / 2);
+        const auto c = static_cast<std::size_t>(2 * column + part % 2);
+        const double weight = finer.solid_angle[r];
+        const std::size_t texel = r * static_cast<std::size_t>(finer.width) + c;
+        const glm::dvec3& radiance = finer.radiance[texel];
+        sum += weight * radiance;
+        mass += weight;
+        centre += weight * (radiance.r + radiance.g + radiance.b + kDark) * finer.direction[texel];
       }
+      level.radiance.push_back(sum / mass);
+      level.direction.push_back(glm::normalize(centre));
     }
   }
+  set_solid_angles(level);
+  return level;
 }
 
 glm::dvec3 GaussianConvolution::convolve(const SphericalGaussian& gaussian) const {

@@ -12,6 +12,9 @@ namespace {
 // steadier error estimate, fewer a better stratified whole.
 constexpr std::size_t kBatches = 4;
 
+// Samples after which it is time to ask whether to go on.
+constexpr std::size_t kBetweenChecks = 1024;
+
 std::size_t points_per_batch(int samples) {
   std::size_t points = 4;
   while (points * kBatches < static_cast<std::size_t>(std::max(samples, 1))) points *= 2;
@@ -37,8 +40,9 @@ glm::dvec3 tint(const Brdf& brdf, const glm::dvec3& i, const glm::dvec3& o) {
 
 }  // namespace
 
-Integrator::Integrator(const Panorama& panorama, const Brdf& brdf, int samples)
-    : brdf_(brdf), environment_(panorama), points_(points_per_batch(samples)) {}
+Integrator::Integrator(const Panorama& panorama, const Brdf& brdf, int samples,
+                       const Progress* progress)
+    : brdf_(brdf), environment_(panorama, progress), points_(points_per_batch(samples), progress) {}
 
 // The product of light and reflectance, as far as clusters resolve it.
 ClusterChoice Integrator::choose_clusters(const glm::dvec3& o, const SurfaceFrame& frame) const {
@@ -55,11 +59,13 @@ ClusterChoice Integrator::choose_clusters(const glm::dvec3& o, const SurfaceFram
 // for light transport simulation", eq. 9.8). With as many samples of either kind, each one counts
 //   f(i) / (p_brdf(i) + p_light(i)),  f(i) = L(i) ρ(i, o) i_z.
 glm::dvec3 Integrator::batch(const glm::dvec3& o, const SurfaceFrame& frame,
-                             const ClusterChoice& choice, std::uint64_t seed) const {
+                             const ClusterChoice& choice, std::uint64_t seed,
+                             const Progress* progress) const {
   const std::uint64_t brdf_seed = mix_bits(seed);
   const std::uint64_t light_seed = mix_bits(~seed);
   glm::dvec3 sum(0.0);
   for (std::size_t k = 0; k < points_.size(); ++k) {
+    if (k % kBetweenChecks == 0) throw_if_cancelled(progress);
     const auto drawn = brdf_.sample(o, points_.scrambled(k, brdf_seed));
     if (!drawn) continue;
     const EnvironmentSample light = environment_.at(choice, to_world(drawn->direction, frame));
@@ -67,6 +73,7 @@ glm::dvec3 Integrator::batch(const glm::dvec3& o, const SurfaceFrame& frame,
            (drawn->weight / (1.0 + light.pdf / drawn->pdf));
   }
   for (std::size_t k = 0; k < points_.size() && !choice.empty(); ++k) {
+    if (k % kBetweenChecks == 0) throw_if_cancelled(progress);
     const EnvironmentSample light = environment_.sample(choice, points_.scrambled(k, light_seed));
     const glm::dvec3 i = to_local(light.direction, frame);
     if (!(i.z > 0.0) || !(light.pdf > 0.0)) continue;
@@ -78,14 +85,14 @@ glm::dvec3 Integrator::batch(const glm::dvec3& o, const SurfaceFrame& frame,
 }
 
 RadianceEstimate Integrator::integrate(const glm::dvec3& view, const SurfaceFrame& frame,
-                                       std::uint64_t seed) const {
+                                       std::uint64_t seed, const Progress* progress) const {
   const glm::dvec3 o = to_local(view, frame);
   if (!(o.z > 0.0)) return {glm::dvec3(0.0), glm::dvec3(0.0)};
   const ClusterChoice choice = choose_clusters(o, frame);
   std::array<glm::dvec3, kBatches> batches;
   glm::dvec3 mean(0.0);
   for (std::size_t b = 0; b < kBatches; ++b) {
-    batches[b] = batch(o, frame, choice, mix_bits(seed) + b);
+    batches[b] = batch(o, frame, choice, mix_bits(seed) + b, progress);
     mean += batches[b] / static_cast<double>(kBatches);
   }
   glm::dvec3 squares(0.0);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "base/progress.h"
 #include "brdf/brdf.h"
 #include "image/panorama.h"
 #include "reference/environment_distribution.h"
@@ -28,18 +29,20 @@ struct RadianceEstimate {
 class Integrator {
  public:
   // `samples`: BRDF samples per estimate, and as many of the environment; rounded up to a power of
-  // two, at least 16.
-  Integrator(const Panorama& panorama, const Brdf& brdf, int samples);
+  // two, at least 16. Throws Cancelled when `progress`, which may be null, is cancelled.
+  Integrator(const Panorama& panorama, const Brdf& brdf, int samples,
+             const Progress* progress = nullptr);
 
   // `view`: unit vector from the surface towards the viewer, in world space. Equal seeds give
-  // equal results; different seeds, independent ones. 0 below the horizon.
-  RadianceEstimate integrate(const glm::dvec3& view, const SurfaceFrame& frame,
-                             std::uint64_t seed) const;
+  // equal results; different seeds, independent ones. 0 below the horizon. Throws Cancelled when
+  // `progress`, which may be null, is cancelled.
+  RadianceEstimate integrate(const glm::dvec3& view, const SurfaceFrame& frame, std::uint64_t seed,
+                             const Progress* progress = nullptr) const;
 
  private:
   ClusterChoice choose_clusters(const glm::dvec3& o, const SurfaceFrame& frame) const;
   glm::dvec3 batch(const glm::dvec3& o, const SurfaceFrame& frame, const ClusterChoice& choice,
-                   std::uint64_t seed) const;
+                   std::uint64_t seed, const Progress* progress) const;
 
   const Brdf& brdf_;
   EnvironmentDistribution environment_;

@@ -12,6 +12,9 @@
 namespace lobelight {
 namespace {
 
+// The size of a cell in texels after which it is time to ask whether to go on.
+constexpr int kBetweenChecks = 256;
+
 struct Cell {
   int column;  // Of its upper left texel.
   int row;
@@ -25,10 +28,16 @@ bool cheaper(const Cell& a, const Cell& b) { return a.cost < b.cost; }
 
 class Builder {
  public:
-  Builder(int width, int height, const std::vector<double>& weights)
-      : width_(width), height_(height), weights_(weights) {}
+  Builder(int width, int height, const std::vector<double>& weights, const Progress* progress)
+      : width_(width), height_(height), weights_(weights), progress_(progress) {}
 
   LightClusters build(std::size_t count) {
+    std::size_t weighty = 0;
+    for (std::size_t texel = 0; texel < weights_.size(); ++texel) {
+      throw_if_cancelled(progress_, texel);
+      if (weights_[texel] > 0.0) ++weighty;
+    }
+    result_.order.reserve(weighty);
     int size = 1;
     while (size < std::max(width_, height_)) size *= 2;
     collect(0, 0, size);
@@ -59,6 +68,7 @@ class Builder {
   void collect(int column, int row, int size) {
     if (column >= width_ || row >= height_) return;
     if (size > 1) {
+      if (size == kBetweenChecks) throw_if_cancelled(progress_);
       const int half = size / 2;
       for (int quadrant = 0; quadrant < 4; ++quadrant) {
         collect(column + (quadrant & 1) * half, row + (quadrant >> 1) * half, half);
@@ -76,6 +86,7 @@ class Builder {
     cumulative.reserve(result_.order.size() + 1);
     cumulative.push_back(0.0);
     for (const std::uint32_t texel : result_.order) {
+      throw_if_cancelled(progress_, cumulative.size());
       cumulative.push_back(cumulative.back() + weight(texel));
     }
     const double total = cumulative.back();
@@ -115,6 +126,7 @@ class Builder {
   }
 
   void add_cluster(const Cell& cell) {
+    throw_if_cancelled(progress_);
     glm::dvec3 sum(0.0);
     glm::dvec3 direction(0.0);
     for (std::size_t k = cell.first; k < cell.last; ++k) {
@@ -134,6 +146,7 @@ class Builder {
   int width_;
   int height_;
   const std::vector<double>& weights_;
+  const Progress* progress_;
   LightClusters result_;
 };
 
@@ -150,8 +163,8 @@ std::size_t LightClusters::choose(const LightCluster& cluster, double& u) const 
 }
 
 LightClusters make_light_clusters(int width, int height, const std::vector<double>& weights,
-                                  std::size_t count) {
-  return Builder(width, height, weights).build(count);
+                                  std::size_t count, const Progress* progress) {
+  return Builder(width, height, weights, progress).build(count);
 }
 
 }  // namespace lobelight

@@ -5,6 +5,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "base/progress.h"
+
 namespace lobelight {
 
 // A square of texels of a panorama that is sampled as a whole.
@@ -29,8 +31,9 @@ struct LightClusters {
 };
 
 // `weights`: width · height values ≥ 0, row by row. `count`: clusters wanted, 1 to 65000; fewer
-// when there are fewer texels with weight, a few more because a cell has four children.
+// when there are fewer texels with weight, a few more because a cell has four children. Throws
+// Cancelled when `progress`, which may be null, is cancelled.
 LightClusters make_light_clusters(int width, int height, const std::vector<double>& weights,
-                                  std::size_t count);
+                                  std::size_t count, const Progress* progress = nullptr);
 
 }  // namespace lobelight

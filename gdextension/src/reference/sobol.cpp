@@ -49,12 +49,13 @@ std::uint64_t mix_bits(std::uint64_t value) {
   return value ^ (value >> 31);
 }
 
-SobolPoints::SobolPoints(std::size_t count) {
+SobolPoints::SobolPoints(std::size_t count, const Progress* progress) {
   if (count < 1 || count > (std::size_t{1} << 31)) {
     throw std::invalid_argument("A Sobol sequence needs 1 to 2^31 points.");
   }
   points_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
+    throw_if_cancelled(progress, i);
     const std::uint32_t index = static_cast<std::uint32_t>(i);
     // Bits reversed, as the scramble wants them; the first dimension is the reversed index itself.
     points_.push_back({index, reverse_bits(sobol_second_dimension(index))});

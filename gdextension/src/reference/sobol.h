@@ -5,6 +5,8 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "base/progress.h"
+
 namespace lobelight {
 
 // The first points of Sobol's (0,2)-sequence in base 2, with a nested uniform scramble applied on
@@ -12,8 +14,8 @@ namespace lobelight {
 // unbiased.
 class SobolPoints {
  public:
-  // `count`: 1 to 2^31 points.
-  explicit SobolPoints(std::size_t count);
+  // `count`: 1 to 2^31 points. Throws Cancelled when `progress`, which may be null, is cancelled.
+  explicit SobolPoints(std::size_t count, const Progress* progress = nullptr);
 
   std::size_t size() const { return points_.size(); }
 

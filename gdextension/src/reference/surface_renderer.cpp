@@ -34,7 +34,7 @@ SurfaceImage render_surface(const Panorama& panorama, const Brdf& brdf, const gl
   if (options.width < 1 || options.height < 1) {
     throw std::invalid_argument("A picture has at least one pixel.");
   }
-  const Integrator integrator(panorama, brdf, options.samples);
+  const Integrator integrator(panorama, brdf, options.samples, &progress);
   const std::size_t width = static_cast<std::size_t>(options.width);
   const std::size_t height = static_cast<std::size_t>(options.height);
   SurfaceImage image;
@@ -52,7 +52,7 @@ SurfaceImage render_surface(const Panorama& panorama, const Brdf& brdf, const gl
       if (!frame) continue;
       const std::size_t pixel = row * width + column;
       const RadianceEstimate estimate =
-          integrator.integrate(view, *frame, mix_bits(options.seed) ^ mix_bits(~pixel));
+          integrator.integrate(view, *frame, mix_bits(options.seed) ^ mix_bits(~pixel), &progress);
       for (int channel = 0; channel < 3; ++channel) {
         const std::size_t target = 3 * pixel + static_cast<std::size_t>(channel);
         image.radiance[target] = static_cast<float>(estimate.radiance[channel]);

@@ -1,6 +1,7 @@
 #include "reference/table_renderer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -11,29 +12,45 @@
 
 namespace lobelight {
 
+namespace {
+
+// Radiance from a surface of this frame, seen from +z.
+glm::dvec3 shade(const GaussianConvolution& light, const LobeTable& table,
+                 const SurfaceFrame& frame, const Progress& progress) {
+  const glm::dvec3 o(frame.tangent.z, frame.bitangent.z, frame.normal.z);
+  const Mixture lobes = table.interpolate(o);
+  std::vector<glm::dvec3> channels;
+  if (table.has_second_texels()) channels = table.interpolate_channel_weights(o);
+  glm::dvec3 radiance(0.0);
+  for (std::size_t k = 0; k < lobes.size(); ++k) {
+    progress.throw_if_cancelled();
+    const glm::dvec3& mean = lobes[k].gaussian.mean;
+    const glm::dvec3 world =
+        mean.x * frame.tangent + mean.y * frame.bitangent + mean.z * frame.normal;
+    const glm::dvec3 weight = channels.empty() ? glm::dvec3(lobes[k].weight) : channels[k];
+    radiance += weight * light.convolve({glm::normalize(world), lobes[k].gaussian.kappa});
+  }
+  return radiance;
+}
+
+}  // namespace
+
 std::vector<float> render_table(const GaussianConvolution& light, const LobeTable& table, int size,
-                                int threads, const Progress& progress) {
+                                int threads, Progress& progress) {
   const auto side = static_cast<std::size_t>(size);
   std::vector<float> picture(3 * side * side, 0.0f);
-  parallel_for(side, threads, [&](std::size_t row) {
-    progress.throw_if_cancelled();
+  std::atomic<int> finished{0};
+  parallel_for(side, threads, progress, [&](std::size_t row) {
     for (int column = 0; column < size; ++column) {
       const auto frame = sphere_frame(column, static_cast<int>(row), size);
       if (!frame) continue;
-      // The view is +z everywhere.
-      const glm::dvec3 o(frame->tangent.z, frame->bitangent.z, frame->normal.z);
-      glm::dvec3 radiance(0.0);
-      for (const Lobe& lobe : table.interpolate(o)) {
-        const glm::dvec3& mean = lobe.gaussian.mean;
-        const glm::dvec3 world =
-            mean.x * frame->tangent + mean.y * frame->bitangent + mean.z * frame->normal;
-        radiance += lobe.weight * light.convolve({glm::normalize(world), lobe.gaussian.kappa});
-      }
+      const glm::dvec3 radiance = shade(light, table, *frame, progress);
       for (int channel = 0; channel < 3; ++channel) {
         picture[3 * (row * side + static_cast<std::size_t>(column)) +
                 static_cast<std::size_t>(channel)] = static_cast<float>(radiance[channel]);
       }
     }
+    progress.set(static_cast<double>(++finished) / size);
   });
   return picture;
 }
