@@ -302,8 +302,9 @@ func get_rebuild_error() -> String:
 	return _error
 
 
-## Makes the pyramid anew, in one frame. Changing a property does so by itself; call it when the
-## contents of textures have changed. It takes until the end of a frame: [code]await
+## Makes the pyramid anew, in one frame; three captures more follow that of a scene, see
+## [constant CAPTURE]. Changing a property does so by itself; call it when the contents of textures
+## have changed. It takes until the end of a frame: [code]await
 ## environment.rebuild()[/code] gives false if it could not be done, with the reason in
 ## [method get_rebuild_error].
 func rebuild() -> bool:
@@ -347,7 +348,8 @@ func _start_if_due() -> void:
 		if _light == null or not _active:
 			return
 		if _echoes > 0:
-			var echoes := _echoes - 1
+			var changed := update_mode == UpdateMode.WHEN_CHANGED and _source.look()
+			var echoes := _ECHOES if changed else _echoes - 1
 			if _begin(_WHOLE):
 				_echoes = echoes
 			return

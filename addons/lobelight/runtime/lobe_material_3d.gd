@@ -345,6 +345,8 @@ var _queued := false
 var _shader: Shader
 # What the lobes come from, and the rendering server's textures, kept alive.
 var _choice := TableChoice.new()
+# A light that comes while a thread loads the material has the main thread look at it as well.
+var _mutex := Mutex.new()
 
 
 ## The widths (alpha_x, alpha_y) of the BRDF along and across the brushing:
@@ -404,23 +406,32 @@ func _validate_property(property: Dictionary) -> void:
 ## The generated shader's code: [code]#define[/code]s that choose the variant, and an
 ## [code]#include[/code].
 func get_shader_code() -> String:
+	_mutex.lock()
 	_choice.choose(self)
-	return MaterialShader.get_code(self, _choice) + '#include "%s"\n' % _get_fragment_path()
+	var code := MaterialShader.get_code(self, _choice) + '#include "%s"\n' % _get_fragment_path()
+	_mutex.unlock()
+	return code
 
 
 ## Whether meshes need tangents for the material: with anisotropy and with normal maps. For a mesh
 ## that has none the engine makes some up, across the normal; the inspector of its node warns of it.
 func needs_tangents() -> bool:
+	_mutex.lock()
 	_choice.choose(self)
-	return normal_texture != null or not _choice.is_isotropic
+	var needed := normal_texture != null or not _choice.is_isotropic
+	_mutex.unlock()
+	return needed
 
 
 ## How often a pixel looks something up, counted from the shader:
 ## [code]{"environment": int, "table": int, "samplers": int}[/code], the last being the samplers
 ## besides those of the material's own textures.
 func get_fetches() -> Dictionary[String, int]:
+	_mutex.lock()
 	_choice.choose(self)
-	return MaterialShader.count_fetches(self, _choice)
+	var fetches := MaterialShader.count_fetches(self, _choice)
+	_mutex.unlock()
+	return fetches
 
 
 ## A material of Godot's with the same look in the engine's lights: an [ORMMaterial3D] where its
@@ -454,12 +465,14 @@ func _queue_update() -> void:
 
 
 func _update() -> void:
+	_mutex.lock()
 	_queued = false
 	var code := get_shader_code()
 	if _shader == null or _shader.code != code:
 		_shader = _get_variant(code)
 		RenderingServer.material_set_shader(_rid, _shader.get_rid())
 	MaterialParameters.apply(self, _choice)
+	_mutex.unlock()
 
 
 static func _get_variant(code: String) -> Shader:
