@@ -35,10 +35,12 @@ const std::vector<char>& coloured_merl() {
   return file;
 }
 
-std::vector<char> coloured_rgl() {
+std::vector<char> coloured_rgl(double unit = 1.0) {
   testing::RglRecipe made;
   made.alpha = {0.2, 0.4};
-  made.reflectance = coloured(made.alpha);
+  made.reflectance = [unit, at = coloured(made.alpha)](const glm::dvec3& i, const glm::dvec3& o) {
+    return unit * at(i, o);
+  };
   made.azimuths.clear();
   for (int p = 0; p <= 4; ++p) made.azimuths.push_back(-kPi + p * kPi / 4.0);
   for (int t = 0; t <= 4; ++t) made.elevations.push_back(0.5 * kPi * t / 4.0);
@@ -196,21 +198,31 @@ TEST_CASE("Numbers of any size are fitted, or refused with a sentence") {
     CHECK(table.entry(k, 1, 0).w == doctest::Approx(0x1p-8 * expected.entry(k, 1, 0).w));
     CHECK(table.entry(k, 1, 0).z == doctest::Approx(expected.entry(k, 1, 0).z));
   }
-  for (const double unit : {1e-20, 1e6, 1e37}) {
-    const TemporaryFile file(".binary");
-    file.write(made(unit));
-    CAPTURE(unit);
-    std::string message;
+  const auto message_of = [&](const TemporaryFile& file) -> std::string {
     try {
       fitted(file);
     } catch (const std::invalid_argument& error) {
-      message = error.what();
+      return error.what();
     }
+    return "";
+  };
+  for (const double unit : {1e-20, 1e6, 1e37}) {
+    CAPTURE(unit);
+    const TemporaryFile file(".binary");
+    file.write(made(unit));
+    const std::string message = message_of(file);
     CAPTURE(message);
     CHECK(message.find(".binary reflects up to ") != std::string::npos);
     CHECK(message.find("not in 1/sr") != std::string::npos);
     CHECK((message.find(" of 3 views") != std::string::npos) == (unit > 1.0));
   }
+  recipe.alpha = {0.2, 0.4};
+  recipe.views = {3, 2};
+  const TemporaryFile rgl(".bsdf");
+  rgl.write(coloured_rgl(1e30));
+  CHECK(message_of(rgl).find(".bsdf reflects up to ") != std::string::npos);
+  recipe.alpha = {0.3, 0.3};
+  recipe.views = {3, 1};
   const TemporaryFile beyond(".binary");
   beyond.write(made(1e60));
   CHECK_THROWS_WITH_AS(fitted(beyond), doctest::Contains("too large for a reflectance"),
