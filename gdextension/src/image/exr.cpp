@@ -33,9 +33,6 @@
 namespace lobelight {
 namespace {
 
-// Rows decoded at a time: a multiple of every compression's block of rows (1, 16, 32 or 256).
-constexpr int kBandRows = 256;
-
 // OpenEXR holds a row of tiles, which may be twice as large as the picture within these limits.
 constexpr std::int64_t kMaxTileTexels = std::int64_t{1} << 26;
 constexpr std::int64_t kMaxTileTexelsOfSmallPicture = std::int64_t{1} << 22;

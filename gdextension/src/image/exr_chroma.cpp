@@ -17,9 +17,6 @@
 namespace lobelight {
 namespace {
 
-// Rows decoded at a time, as in exr.cpp.
-constexpr int kBandRows = 256;
-
 // One channel of the data window, with every n-th column and row.
 class Plane {
  public:

@@ -7,6 +7,9 @@
 
 namespace lobelight {
 
+// Rows decoded at a time: a multiple of every compression's block of rows (1, 16, 32 or 256).
+inline constexpr int kBandRows = 256;
+
 // Pixel bounds, both ends included, wide enough for every difference of two ints.
 struct Window {
   std::int64_t left, top, right, bottom;
