@@ -10,9 +10,9 @@ const char* const kReader = "hdr";
 
 namespace {
 
-Bytes picture(const std::string& resolution, const Bytes& pixels) {
-  const std::string text =
-      "#?RADIANCE\nEXPOSURE=1.5\nFORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n";
+Bytes picture(const std::string& resolution, const Bytes& pixels,
+              const std::string& variables = "EXPOSURE=1.5\nFORMAT=32-bit_rle_rgbe\n") {
+  const std::string text = "#?RADIANCE\n" + variables + "\n" + resolution + "\n";
   Bytes bytes(text.begin(), text.end());
   bytes.insert(bytes.end(), pixels.begin(), pixels.end());
   return bytes;
@@ -34,7 +34,10 @@ std::vector<Bytes> seeds() {
     }
   }
   return {picture("-Y 3 +X 6", flat), picture("-Y 1 +X 319", old_runs),
-          picture("-Y 3 +X 20", new_runs)};
+          picture("-Y 3 +X 20", new_runs),
+          picture("+X 3 -Y 20", new_runs, "VIEW= -vta\nFORMAT= 32-bit_rle_xyze \n"),
+          picture("+Y 3 -X 6", flat,
+                  "COLORCORR=1 2 1\nPRIMARIES=.7 .3 .2 .7 .1 .1 .3 .3\nGAMMA=2.2\nPIXASPECT=2\n")};
 }
 
 }  // namespace lobelight::fuzz
