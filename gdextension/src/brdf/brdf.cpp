@@ -50,8 +50,8 @@ std::unique_ptr<Brdf> make_brdf(std::string_view name, const glm::dvec2& alpha,
   if (name == "ward_bounded") return std::make_unique<WardBounded>(alpha);
   if (name == "ggx") return std::make_unique<Ggx>(alpha);
   const std::string path(name);
-  return std::make_unique<MeasuredBrdf>(
-      read_measured(path), path.substr(path.find_last_of("/\\") + 1), alpha, progress);
+  return std::make_unique<MeasuredBrdf>(read_measured(path),
+                                        path.substr(path.find_last_of("/\\") + 1), alpha, progress);
 }
 
 }  // namespace lobelight
