@@ -167,6 +167,19 @@ TEST_CASE("EnvironmentDistribution: values that are no light count as 0") {
   CHECK(glm::length(radiance - glm::dvec3(0, 1, 1)) < 1e-12);
 }
 
+TEST_CASE("EnvironmentDistribution: infinite light is the brightest, as readers have it") {
+  Panorama panorama = random_panorama();
+  panorama.rgb[30] = std::numeric_limits<float>::infinity();
+  Panorama clean = panorama;
+  clean.sanitise();
+  const EnvironmentDistribution environment(panorama);
+  const EnvironmentDistribution expected(clean);
+  REQUIRE(environment.clusters().size() == expected.clusters().size());
+  const glm::dvec3 there = panorama_direction({10.5 / panorama.width, 0.5 / panorama.height});
+  CHECK(environment.at({}, there).radiance == expected.at({}, there).radiance);
+  CHECK(environment.at({}, there).radiance.r > 6e4);
+}
+
 TEST_CASE("EnvironmentDistribution: panoramas that do not fit together are refused") {
   CHECK_THROWS_AS(EnvironmentDistribution({0, 0, {}}), std::invalid_argument);
   CHECK_THROWS_AS(EnvironmentDistribution({2, 2, {1.0f}}), std::invalid_argument);

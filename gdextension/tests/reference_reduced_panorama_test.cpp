@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <vector>
 
 #include "base/pi.h"
@@ -74,14 +73,8 @@ TEST_CASE("a panorama that is small enough stays as it is") {
   CHECK(reduce_panorama(panorama, 100, 50).width == 8);
 }
 
-TEST_CASE("what is no light counts as none, and a cancelled reduction ends") {
-  Panorama panorama{4, 2, std::vector<float>(24, 1.0f)};
-  panorama.rgb[0] = std::numeric_limits<float>::quiet_NaN();
-  panorama.rgb[3] = -5.0f;
-  panorama.rgb[6] = std::numeric_limits<float>::infinity();
-  const Panorama reduced = reduce_panorama(panorama, 1, 1);
-  CHECK(reduced.rgb[0] == doctest::Approx(5.0 / 8.0));
-  CHECK(reduced.rgb[1] == doctest::Approx(1.0));
+TEST_CASE("a cancelled reduction ends") {
+  const Panorama panorama = uneven(8, 4);
   Progress progress;
   progress.cancel();
   CHECK_THROWS_AS(reduce_panorama(panorama, 1, 1, &progress), Cancelled);

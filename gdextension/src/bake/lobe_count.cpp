@@ -31,12 +31,13 @@ struct Scene {
 };
 
 Panorama load_environment(const std::string& path, const Progress& progress) {
-  return reduce_panorama(load_panorama(path), kEnvironmentWidth, kEnvironmentHeight, &progress);
+  Panorama panorama = load_panorama(path, "", kMaxPanoramaSide, &progress);
+  panorama.sanitise();
+  return reduce_panorama(std::move(panorama), kEnvironmentWidth, kEnvironmentHeight, &progress);
 }
 
 Scene make_scene(Panorama panorama, const Brdf& brdf, const SphereOptions& options,
                  Progress& progress) {
-  panorama.sanitise();
   std::vector<float> reference = render_sphere(panorama, brdf, options, progress).radiance;
   return {GaussianConvolution(std::move(panorama), &progress), std::move(reference)};
 }

@@ -28,8 +28,7 @@ SpherePicture render_picture(const SphereRequest& request, Progress& progress) {
   Progress read(progress, kReadShare);
   Progress render(progress, 1.0 - kReadShare);
   const std::unique_ptr<Brdf> brdf = make_brdf(request.brdf, request.alpha, &read);
-  read.throw_if_cancelled();
-  Panorama panorama = load_panorama(request.environment);
+  Panorama panorama = load_panorama(request.environment, "", kMaxPanoramaSide, &read);
   check_memory(request, panorama.width, panorama.height);
   const std::size_t clamped = panorama.sanitise();
   read.set(1.0);

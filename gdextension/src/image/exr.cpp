@@ -164,7 +164,7 @@ void check_windows(const Window& display, const Window& data, const std::string&
 
 // Appends row by row, so that a header that lies costs no memory.
 Panorama read_pixels(Imf::InputPart& part, const Window& display, const Window& data,
-                     const std::vector<std::string>& channels) {
+                     const std::vector<std::string>& channels, const Progress* progress) {
   Panorama image;
   image.width = static_cast<int>(display.width());
   image.height = static_cast<int>(display.height());
@@ -185,6 +185,7 @@ Panorama read_pixels(Imf::InputPart& part, const Window& display, const Window& 
   for (std::int64_t top = data.top; top <= data.bottom; top += band_rows) {
     const std::int64_t bottom = std::min(top + band_rows - 1, data.bottom);
     if (bottom < display.top || top > display.bottom) continue;
+    throw_if_cancelled(progress);
     Imf::FrameBuffer target;
     const Imath::V2i origin(static_cast<int>(data.left), static_cast<int>(top));
     for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -264,6 +265,8 @@ auto with_file(const std::vector<std::uint8_t>& bytes, const std::string& name, 
     return read(stream, file);
   } catch (const ImageError&) {
     throw;
+  } catch (const Cancelled&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw ImageError(name, "needs more memory than there is");
   } catch (const std::exception& error) {
@@ -288,7 +291,7 @@ std::vector<std::string> exr_layers(const std::vector<std::uint8_t>& bytes,
 }
 
 Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& name,
-                    const std::string& label, std::int64_t max_side) {
+                    const std::string& label, std::int64_t max_side, const Progress* progress) {
   return with_file(bytes, name, [&](MemoryReader& stream, Imf::MultiPartInputFile& file) {
     const ExrLayer layer = choose_layer(headers_of(file), label, name);
     const Imf::Header& header = file.header(layer.part);
@@ -302,8 +305,8 @@ Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& n
     Imf::InputPart part(file, layer.part);
     stream.take_ran_short();  // reading ahead in the header is no fault
     Panorama image = layer.kind == ExrLayer::Kind::luminance_chroma
-                         ? read_luminance_chroma(part, display, data, layer.channels)
-                         : read_pixels(part, display, data, layer.channels);
+                         ? read_luminance_chroma(part, display, data, layer.channels, progress)
+                         : read_pixels(part, display, data, layer.channels, progress);
     // OpenEXR 3.4 takes uncompressed rows that end early and fills them up.
     if (stream.take_ran_short()) throw ImageError(name, "ends in the middle of its pixels");
     tell_of_header(header, layer, display, data, image);

@@ -22,9 +22,11 @@ std::vector<std::string> exr_layers(const std::vector<std::uint8_t>& bytes,
 // has the size of the display window: what the data window leaves free is 0, what it has beyond is
 // cut. Colours with other primaries are converted to Rec. 709. Everything else (deep data,
 // subsampled colours, cube maps, absurd sizes, files without such channels) throws ImageError, as
-// do damaged files. `name` stands for the file in messages.
+// do damaged files. `name` stands for the file in messages. Throws Cancelled when `progress`, which
+// may be null, is cancelled.
 Panorama decode_exr(const std::vector<std::uint8_t>& bytes, const std::string& name,
-                    const std::string& layer = "", std::int64_t max_side = kMaxPanoramaSide);
+                    const std::string& layer = "", std::int64_t max_side = kMaxPanoramaSide,
+                    const Progress* progress = nullptr);
 
 enum class ExrPixelType { kHalf, kFloat };
 

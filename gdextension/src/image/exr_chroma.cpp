@@ -64,12 +64,13 @@ class Plane {
 
 // Y, (R − Y) / Y and (B − Y) / Y of the data window. Row by row as well.
 std::vector<Plane> read_planes(Imf::InputPart& part, const Window& data,
-                               const std::vector<std::string>& channels) {
+                               const std::vector<std::string>& channels, const Progress* progress) {
   std::vector<Plane> planes;
   for (const std::string& channel : channels) {
     planes.emplace_back(*part.header().channels().findChannel(channel), data);
   }
   for (std::int64_t top = data.top; top <= data.bottom; top += kBandRows) {
+    throw_if_cancelled(progress);
     const std::int64_t bottom = std::min(top + kBandRows - 1, data.bottom);
     Imf::FrameBuffer target;
     for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -96,8 +97,8 @@ glm::vec3 colour_of(double luminance, double red_chroma, double blue_chroma,
 }  // namespace
 
 Panorama read_luminance_chroma(Imf::InputPart& part, const Window& display, const Window& data,
-                               const std::vector<std::string>& channels) {
-  const std::vector<Plane> planes = read_planes(part, data, channels);
+                               const std::vector<std::string>& channels, const Progress* progress) {
+  const std::vector<Plane> planes = read_planes(part, data, channels, progress);
   const Imf::Header& header = part.header();
   const Imath::V3f given = Imf::RgbaYca::computeYw(
       Imf::hasChromaticities(header) ? Imf::chromaticities(header) : Imf::Chromaticities());
@@ -108,6 +109,7 @@ Panorama read_luminance_chroma(Imf::InputPart& part, const Window& display, cons
   image.rgb.resize(3 * static_cast<std::size_t>(display.width() * display.height()));
   for (std::int64_t y = std::max(display.top, data.top); y <= std::min(display.bottom, data.bottom);
        ++y) {
+    throw_if_cancelled(progress);
     for (std::int64_t x = std::max(display.left, data.left);
          x <= std::min(display.right, data.right); ++x) {
       const std::int64_t column = x - data.left, row = y - data.top;

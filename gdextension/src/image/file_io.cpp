@@ -1,5 +1,6 @@
 #include "image/file_io.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +18,9 @@ namespace fs = std::filesystem;
 // Well above the largest panorama as floats.
 constexpr int kMostGib = 8;
 
+// Bytes between two looks at whether to go on.
+constexpr std::size_t kAtOnce = std::size_t{8} << 20;
+
 std::string system_reason(int error) {
   return error == 0 ? "unknown reason" : std::generic_category().message(error);
 }
@@ -30,10 +34,13 @@ fs::path temporary_beside(const fs::path& path) {
 
 }  // namespace
 
-std::vector<std::uint8_t> read_file(const std::string& path) try {
+std::vector<std::uint8_t> read_file(const std::string& path, const Progress* progress) try {
   InputFile file(path, kMostGib);
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(file.size()));
-  file.read(0, reinterpret_cast<char*>(bytes.data()), bytes.size());
+  for (std::size_t at = 0; at < bytes.size(); at += kAtOnce) {
+    throw_if_cancelled(progress);
+    file.read(at, reinterpret_cast<char*>(bytes.data() + at), std::min(kAtOnce, bytes.size() - at));
+  }
   return bytes;
 } catch (const FileProblem& problem) {
   throw ImageError(path, problem.what());

@@ -195,24 +195,26 @@ void check_panorama_size(std::int64_t width, std::int64_t height, const std::str
 }
 
 Panorama decode_panorama(const std::vector<std::uint8_t>& bytes, const std::string& name,
-                         const std::string& layer, std::int64_t max_side) {
+                         const std::string& layer, std::int64_t max_side,
+                         const Progress* progress) {
   if (bytes.empty()) throw ImageError(name, "is empty");
   Panorama panorama;
   if (looks_like_exr(bytes)) {
-    panorama = decode_exr(bytes, name, layer, max_side);
+    panorama = decode_exr(bytes, name, layer, max_side, progress);
   } else {
     if (!looks_like_radiance_hdr(bytes)) {
       throw ImageError(name, "is neither an OpenEXR nor a Radiance (.hdr) picture");
     }
     if (!layer.empty()) throw ImageError(name, "is a Radiance picture, which has no layers");
-    panorama = decode_radiance_hdr(bytes, name, max_side);
+    panorama = decode_radiance_hdr(bytes, name, max_side, progress);
   }
   check_proportions(panorama);
   return panorama;
 }
 
-Panorama load_panorama(const std::string& path, const std::string& layer, std::int64_t max_side) {
-  return decode_panorama(read_file(path), path, layer, max_side);
+Panorama load_panorama(const std::string& path, const std::string& layer, std::int64_t max_side,
+                       const Progress* progress) {
+  return decode_panorama(read_file(path, progress), path, layer, max_side, progress);
 }
 
 std::vector<std::string> panorama_layers(const std::string& path) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
+
 namespace lobelight {
 
 // Largest panorama that is read: texels in all (16384 × 16384; 3 GiB of floats) and along a side.
@@ -62,13 +64,16 @@ void check_panorama_size(std::int64_t width, std::int64_t height, const std::str
 
 // Reads an OpenEXR or a Radiance (.hdr) file; its content says which, not its name.
 // `path` is UTF-8; `layer` as for decode_exr(), Radiance files have none. Pictures with more than
-// `max_side` texels along a side are refused before they are decoded. Throws ImageError.
+// `max_side` texels along a side are refused before they are decoded. Throws ImageError, and
+// Cancelled when `progress`, which may be null, is cancelled.
 Panorama load_panorama(const std::string& path, const std::string& layer = "",
-                       std::int64_t max_side = kMaxPanoramaSide);
+                       std::int64_t max_side = kMaxPanoramaSide,
+                       const Progress* progress = nullptr);
 
 // The same for a file that is already in memory; `name` stands for it in messages.
 Panorama decode_panorama(const std::vector<std::uint8_t>& bytes, const std::string& name,
-                         const std::string& layer = "", std::int64_t max_side = kMaxPanoramaSide);
+                         const std::string& layer = "", std::int64_t max_side = kMaxPanoramaSide,
+                         const Progress* progress = nullptr);
 
 // The layers of such a file; "" alone for a Radiance file. Throws ImageError.
 std::vector<std::string> panorama_layers(const std::string& path);

@@ -120,10 +120,12 @@ void append_line(const std::uint8_t* pixels, std::size_t bytes, std::vector<floa
 
 // The values of all lines in the file's order. They are appended line by line, so that a header
 // that lies costs no memory.
-std::vector<float> read_coded(Reader& reader, const RadianceHeader& header, bool is_flat_size) {
+std::vector<float> read_coded(Reader& reader, const RadianceHeader& header, bool is_flat_size,
+                              const Progress* progress) {
   std::vector<float> values;
   std::vector<std::uint8_t> line(kPixelBytes * static_cast<std::size_t>(header.length));
   for (int n = 0; n < header.lines; ++n) {
+    throw_if_cancelled(progress);
     reader.begin_line(n);
     read_line(reader, header.length, line);
     append_line(line.data(), line.size(), values);
@@ -133,13 +135,13 @@ std::vector<float> read_coded(Reader& reader, const RadianceHeader& header, bool
 }
 
 std::vector<float> read_values(const std::vector<std::uint8_t>& bytes, const RadianceHeader& header,
-                               const std::string& name) {
+                               const std::string& name, const Progress* progress) {
   Reader reader(bytes, header, name);
   const std::size_t flat_size = kPixelBytes * static_cast<std::size_t>(header.lines) *
                                 static_cast<std::size_t>(header.length);
   const bool is_flat_size = reader.remaining() == flat_size;
   try {
-    return read_coded(reader, header, is_flat_size);
+    return read_coded(reader, header, is_flat_size, progress);
   } catch (const ImageError&) {
     if (!is_flat_size) throw;
   }
@@ -176,14 +178,14 @@ bool looks_like_radiance_hdr(const std::vector<std::uint8_t>& bytes) {
 }
 
 Panorama decode_radiance_hdr(const std::vector<std::uint8_t>& bytes, const std::string& name,
-                             std::int64_t max_side) {
+                             std::int64_t max_side, const Progress* progress) {
   if (!looks_like_radiance_hdr(bytes)) throw ImageError(name, "is not a Radiance picture");
   RadianceHeader header = read_radiance_header(bytes, name);
   check_panorama_size(header.width(), header.height(), name, max_side);
   Panorama image;
   image.width = header.width();
   image.height = header.height();
-  image.rgb = in_rows(read_values(bytes, header, name), header);
+  image.rgb = in_rows(read_values(bytes, header, name, progress), header);
   image.notes = std::move(header.notes);
   image.warnings = std::move(header.warnings);
   if (header.is_xyze) {

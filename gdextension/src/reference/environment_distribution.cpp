@@ -61,14 +61,18 @@ EnvironmentDistribution::EnvironmentDistribution(const Panorama& panorama, const
           3 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {
     throw std::invalid_argument("A panorama needs at least one texel and three values in each.");
   }
-  const auto light = [&](std::size_t n) {
-    const float value = panorama.rgb[n];
-    return value > 0.0f && std::isfinite(value) ? value : 0.0f;
-  };
-  texels_.resize(panorama.rgb.size() / 3);
+  const auto is_light = [](float value) { return value >= 0.0f && std::isfinite(value); };
+  if (!std::all_of(panorama.rgb.begin(), panorama.rgb.end(), is_light)) {
+    Panorama clean = panorama;
+    clean.sanitise();
+    *this = EnvironmentDistribution(clean, progress);
+    return;
+  }
+  const std::vector<float>& rgb = panorama.rgb;
+  texels_.resize(rgb.size() / 3);
   for (std::size_t i = 0; i < texels_.size(); ++i) {
     throw_if_cancelled(progress, i);
-    texels_[i] = {light(3 * i), light(3 * i + 1), light(3 * i + 2), 0.0f};
+    texels_[i] = {rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2], 0.0f};
   }
   const std::vector<double> weights = texel_weights(texels_, width_, height_, progress);
   light_ = make_light_clusters(width_, height_, weights, kClusters, progress);

@@ -37,9 +37,10 @@ struct ClusterChoice {
 // weights, just as the radiance is that of values, and positive wherever a bright texel reaches.
 class EnvironmentDistribution {
  public:
-  // Copies what it needs, 38 bytes for each texel while it is made and 30 later. Negative and
-  // non-finite values count as 0. Throws std::invalid_argument when the panorama is empty or its
-  // sizes do not fit together, and Cancelled when `progress`, which may be null, is cancelled.
+  // Copies what it needs, 38 bytes for each texel while it is made and 30 later. Values
+  // that are no light count as Panorama::sanitise() makes them. Throws std::invalid_argument when
+  // the panorama is empty or its sizes do not fit together, and Cancelled when `progress`, which
+  // may be null, is cancelled.
   explicit EnvironmentDistribution(const Panorama& panorama, const Progress* progress = nullptr);
 
   // Empty for a constant panorama, where nothing stands out.

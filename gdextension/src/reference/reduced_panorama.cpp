@@ -58,10 +58,7 @@ Panorama reduce_panorama(Panorama panorama, int width, int height, const Progres
           const float* texel =
               &panorama
                    .rgb[3 * (static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x))];
-          for (int channel = 0; channel < 3; ++channel) {
-            const double value = static_cast<double>(texel[channel]);
-            if (value > 0.0 && std::isfinite(value)) sum[channel] += part * value;
-          }
+          sum += part * glm::dvec3(texel[0], texel[1], texel[2]);
         }
         row[static_cast<std::size_t>(c)] += share / (columns.to - columns.from) * sum;
       }
