@@ -1,6 +1,6 @@
 extends SceneTree
-## Starts a task again whose handler lets go of it, as lobe_task_test.gd has it do: the signal of the
-## first run is emitted within the second start().
+## Starts a task again whose handler lets go of it, as lobe_task_ending_test.gd has it do: the
+## signal of the first run is emitted within the second start().
 
 const QUICK := {"alpha": 0.1, "lobes": 2, "views": [4, 1]}
 

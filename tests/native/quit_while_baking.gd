@@ -1,7 +1,7 @@
 extends SceneTree
-## Quits while a task is running, as lobe_task_test.gd has it do. The argument says what becomes of
-## the task: "held" by this script until the engine lets go of it, or "leaked", so that nothing
-## ever frees it.
+## Quits while a task is running, as lobe_task_ending_test.gd has it do. The argument says what
+## becomes of the task: "held" by this script until the engine lets go of it, or "leaked", so that
+## nothing ever frees it.
 
 const LONG := {"alpha": [0.01, 0.3], "lobes": 32, "views": [64, 64]}
 
