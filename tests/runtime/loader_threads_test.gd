@@ -10,17 +10,25 @@ var _arrivals := 0
 var _mutex := Mutex.new()
 
 
-# Looks, in every load of the ready set, whether others could enter meanwhile.
+# Looks, when a file is loaded, whether others could enter a lock meanwhile.
 class Watch:
 	extends ResourceFormatLoader
 	var loads := 0
 	var could_enter := false
+	var _path: String
+	var _loaded: Resource
+	var _watched: Mutex
+
+	func _init(path: String, loaded: Resource, watched: Mutex) -> void:
+		_path = path
+		_loaded = loaded
+		_watched = watched
 
 	func _recognize_path(path: String, _type: StringName) -> bool:
-		return path == TableChoice.DEFAULT_SET
+		return path == _path
 
-	func _exists(_path: String) -> bool:
-		return true
+	func _exists(path: String) -> bool:
+		return path == _path
 
 	func _handles_type(_type: StringName) -> bool:
 		return true
@@ -33,13 +41,22 @@ class Watch:
 		var thread := Thread.new()
 		thread.start(_try_to_enter)
 		could_enter = thread.wait_to_finish()
-		return LobeTableSet.new()
+		return _loaded
 
-	static func _try_to_enter() -> bool:
-		if not TableChoice._mutex.try_lock():
+	func _try_to_enter() -> bool:
+		if not _watched.try_lock():
 			return false
-		TableChoice._mutex.unlock()
+		_watched.unlock()
 		return true
+
+
+# Draws what an include says that nothing else has loaded.
+class Included:
+	extends LobeMaterial3D
+	const PATH := "res://not_loaded_yet.gdshaderinc"
+
+	func _get_fragment_path() -> String:
+		return PATH
 
 
 func test_a_table_has_one_texture_for_all_threads() -> void:
@@ -70,7 +87,7 @@ func test_nobody_waits_while_the_ready_set_is_loaded() -> void:
 		cached = load(TableChoice.DEFAULT_SET)
 		cached.resource_path = ""
 	TableChoice._default_set = null
-	var watch := Watch.new()
+	var watch := Watch.new(TableChoice.DEFAULT_SET, LobeTableSet.new(), TableChoice._mutex)
 	ResourceLoader.add_resource_format_loader(watch, true)
 	var found := TableChoice.get_set(LobeMaterial3D.new())
 	ResourceLoader.remove_resource_format_loader(watch)
@@ -78,6 +95,19 @@ func test_nobody_waits_while_the_ready_set_is_loaded() -> void:
 	if cached != null:
 		found.resource_path = ""
 		cached.take_over_path(TableChoice.DEFAULT_SET)
+	assert_int(watch.loads).is_equal(1)
+	assert_bool(watch.could_enter).is_true()
+
+
+func test_nobody_waits_while_an_include_is_loaded() -> void:
+	var include := ShaderInclude.new()
+	include.code = "void fragment() {}\n"
+	var watch := Watch.new(Included.PATH, include, LobeMaterial3D._variants_mutex)
+	ResourceLoader.add_resource_format_loader(watch, true)
+	var material := Included.new()
+	await await_idle_frame()
+	ResourceLoader.remove_resource_format_loader(watch)
+	assert_object(material._shader).is_not_null()
 	assert_int(watch.loads).is_equal(1)
 	assert_bool(watch.could_enter).is_true()
 

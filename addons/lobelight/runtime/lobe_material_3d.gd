@@ -476,16 +476,29 @@ func _update() -> void:
 
 
 static func _get_variant(code: String) -> Shader:
+	var shader := _find_variant(code)
+	if shader != null:
+		return shader
+	# Not under the lock: what the code includes may have to be loaded, and who loads may wait for
+	# other threads, and these for the lock.
+	var made := Shader.new()
+	made.code = code
 	_variants_mutex.lock()
-	var shader: Shader
-	if _variants.has(code):
-		shader = _variants[code].get_ref()
+	shader = _find_variant(code)
 	if shader == null:
 		for other: String in _variants.keys():
 			if _variants[other].get_ref() == null:
 				_variants.erase(other)
-		shader = Shader.new()
-		shader.code = code
+		shader = made
 		_variants[code] = weakref(shader)
+	_variants_mutex.unlock()
+	return shader
+
+
+static func _find_variant(code: String) -> Shader:
+	_variants_mutex.lock()
+	var shader: Shader
+	if _variants.has(code):
+		shader = _variants[code].get_ref()
 	_variants_mutex.unlock()
 	return shader
