@@ -35,12 +35,14 @@ class LibrariesTest(unittest.TestCase):
             self.assertEqual([kept], re.findall(r'"res://addons/lobelight/(bin/[^"]+)"', text))
             self.assertIn("entry_symbol", text)
 
-    def test_this_machine_is_not_among_the_others(self):
-        self.assertLess(set(package.targets_of_others()), set(package.targets().values()))
+    def test_a_package_is_for_this_machine_or_for_all(self):
+        self.assertEqual([package.target_of_this_machine()], list(package.packed_targets(False).values()))
+        self.assertEqual(package.targets(), package.packed_targets(True))
+        self.assertGreater(len(package.targets()), 1)
 
     def test_a_missing_library_is_named(self):
         with self.assertRaisesRegex(package.PackageError, r"liblobelight\S+ is missing$"):
-            package.libraries_of_all(pathlib.Path("/absent"))
+            package.built_libraries(pathlib.Path("/absent"), package.targets())
 
     def test_a_missing_licence_is_named(self):
         with self.assertRaisesRegex(licences.LicenceError, "^the licence of libc"):

@@ -8,13 +8,12 @@ usage: ./dev package [--all | --no-library] [--out X.zip] [--json FILE]
 
 --out X.zip    where the package goes (default: build/lobelight.zip)
 --no-library   without the native library: materials, environments and the ready tables work, baking does not
---all          with the libraries for Windows, macOS and Linux, each on x86-64 and arm64; those for other systems than
-               this one are built with Zig, which is fetched, and take long, the first time
+--all          with the libraries for Windows, macOS and Linux, each on x86-64 and arm64, which take long, the first time
 --json FILE    the files, their sizes and the package's SHA-256
 
 The package holds addons/lobelight as a project needs it: run time, editor scripts, ready tables, icons and the library
-for this machine, or those for every desktop, with the licences of what is linked into them. Equal sources give equal
-bytes.
+for this machine, or those for every desktop, with the licences of what is linked into them. One compiler, Zig's, which
+is fetched, builds all of them: those for Linux run from glibc 2.28 on. Equal sources give equal bytes.
 USAGE
 }
 
@@ -27,14 +26,7 @@ tool=$ROOT/tools/package/package.py
 "$PYTHON" "$tool" --check "$@"
 options=(--downloads "$CACHE/downloads")
 if [[ " $* " != *" --no-library "* ]]; then
-  need_library
-  options+=(--interface "$GODOT_INTERFACE")
-fi
-if [[ " $* " == *" --all "* ]]; then
-  mapfile -t targets < <("$PYTHON" "$tool" --targets)
-  for target in "${targets[@]}"; do
-    need_cross_library "$target"
-  done
-  options+=(--libraries "$ROOT/build/libraries" --zig "$ZIG_FOLDER")
+  if [[ " $* " == *" --all "* ]]; then need_package_libraries --all; else need_package_libraries; fi
+  options+=(--libraries "$ROOT/build/libraries" --zig "$ZIG_FOLDER" --interface "$GODOT_INTERFACE")
 fi
 exec "$PYTHON" "$tool" "${options[@]}" "$@"

@@ -155,6 +155,18 @@ need_cross_library() {
   fi
 }
 
+# need_package_libraries [--all]: what ./dev package packs, in build/libraries: the library for this machine, or those for
+# every desktop.
+need_package_libraries() {
+  local targets target OPENEXR_DIR
+  need_python ""
+  mapfile -t targets < <("$PYTHON" "$ROOT/tools/package/package.py" --targets "$@")
+  ((${#targets[@]} > 0)) || die "there is no library for this machine among those that lobelight.gdextension names"
+  for target in "${targets[@]}"; do
+    need_cross_library "$target"
+  done
+}
+
 # library_key: what the native library is built from. Changes when a source, the recipe, OpenEXR or the engine's interface
 # does.
 library_key() {

@@ -12,7 +12,7 @@ SOURCES = [
     ("OpenJPH, in OpenEXR", "openexr-{OPENEXR_VERSION}.tar.gz", "external/OpenJPH/LICENSE"),
     ("Imath", "imath_{IMATH_VERSION}.orig.tar.gz", "LICENSE.md"),
 ]
-# What Zig's compiler links beside it, below its folder: in libraries for other systems than the one that builds.
+# What Zig's compiler links beside it, below its folder.
 FROM_ZIG = [
     ("libc++", "lib/libcxx/LICENSE.TXT"),
     ("libc++abi", "lib/libcxxabi/LICENSE.TXT"),
@@ -31,14 +31,12 @@ class LicenceError(Exception):
 
 def collect(downloads, root, zig, interface):
     """One text with every licence. `downloads` is the folder that holds the archives, `root` the repository, `zig` the
-    folder of the compiler that built for every desktop, or None where this machine's own did, `interface` the engine's
-    gdextension_interface.h."""
+    compiler's folder, `interface` the engine's gdextension_interface.h."""
     parts = [("Lobelight", (root / "LICENSE").read_text(encoding="utf-8"))]
     versions = dict(re.findall(r"^(\w+_VERSION)=(\S+)$", (root / SETUP).read_text(encoding="utf-8"), re.MULTILINE))
     parts += [(name, from_archive(downloads / archive.format(**versions), path)) for name, archive, path in SOURCES]
     parts.append(("GLM", first_text(GLM_FILES, "GLM")))
-    if zig is not None:
-        parts += [(name, read_licence(zig / path, name)) for name, path in FROM_ZIG]
+    parts += [(name, read_licence(zig / path, name)) for name, path in FROM_ZIG]
     engine = "Godot Engine, its extension interface"
     parts.append((engine, comment_at_top(read_licence(interface, engine))))
     blocks = [f"{RULE}\n{name}\n{RULE}\n\n{text.strip()}\n" for name, text in parts]

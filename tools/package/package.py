@@ -57,10 +57,10 @@ def read_arguments(arguments):
     parser.add_argument("--out", default="")
     parser.add_argument("--json", default="")
     parser.add_argument("--all", action="store_true")
-    parser.add_argument("--targets", action="store_true", help="print what --all builds libraries for")
+    parser.add_argument("--targets", action="store_true", help="print what libraries are packed for")
     parser.add_argument("--no-library", action="store_true")
     parser.add_argument("--libraries", type=pathlib.Path, default=pathlib.Path(), help="folder with one for each target")
-    parser.add_argument("--zig", type=pathlib.Path, default=pathlib.Path(), help="folder of what built these")
+    parser.add_argument("--zig", type=pathlib.Path, default=pathlib.Path(), help="folder of the compiler that built these")
     parser.add_argument("--interface", type=pathlib.Path, default=pathlib.Path(), help="the engine's C interface")
     parser.add_argument("--downloads", type=pathlib.Path, default=pathlib.Path())
     parser.error = fail_with
@@ -104,31 +104,28 @@ def targets():
     return {name: ".".join([*features.split(".")[:1], *features.split(".")[-1:]]) for features, name in lines}
 
 
-def targets_of_others():
-    """What --all builds libraries for with a compiler for other systems: all but the system that this runs on."""
+def target_of_this_machine():
     processor = platform.machine().lower()
     processor = {"aarch64": "arm64", "amd64": "x86_64"}.get(processor, processor)
-    here = f"{platform.system().lower()}.{processor}"
-    return [target for target in targets().values() if target != here]
+    return f"{platform.system().lower()}.{processor}"
 
 
-def library_of_this_machine():
-    """Bytes by path below the addon, of the library that ./dev builds where .gdextension looks for it."""
-    folder = ROOT / ADDON
-    return {name: (folder / name).read_bytes() for name in targets() if (folder / name).is_file()}
+def packed_targets(everything):
+    """Those of targets() that a package has libraries for: all, or that of this machine."""
+    here = target_of_this_machine()
+    return {name: target for name, target in targets().items() if everything or target == here}
 
 
-def libraries_of_all(folder):
-    """Bytes by path below the addon, of every library that .gdextension names. `folder` holds a folder for each target,
-    but for the system that this runs on."""
-    libraries = library_of_this_machine()
-    for name, target in targets().items():
+def built_libraries(folder, wanted):
+    """Bytes by path below the addon, of the libraries in `wanted`, a part of targets(). `folder` holds a folder for each
+    target."""
+    libraries = {}
+    for name, target in wanted.items():
         file = folder / target / pathlib.PurePosixPath(name).name
-        if name not in libraries and not file.is_file():
+        if not file.is_file():
             raise PackageError(f"{file} is missing")
-        if name not in libraries:
-            libraries[name] = file.read_bytes()
-    return {name: libraries[name] for name in targets()}
+        libraries[name] = file.read_bytes()
+    return libraries
 
 
 def extension_text(libraries):
@@ -146,17 +143,13 @@ def contents(options):
     folder = ROOT / ADDON
     files = {name: (folder / name).read_bytes() for name in addon_files()}
     libraries = {}
-    if options.all:
-        libraries = libraries_of_all(options.libraries)
-    elif not options.no_library:
-        libraries = library_of_this_machine()
+    if not options.no_library:
+        libraries = built_libraries(options.libraries, packed_targets(options.all))
     if libraries:
         files |= libraries
         files[EXTENSION] = extension_text(libraries)
         files[f"{EXTENSION}.uid"] = (folder / f"{EXTENSION}.uid").read_bytes()
-        files[LICENCES] = licences.collect(options.downloads, ROOT, options.zig if options.all else None, options.interface).encode()
-    elif not options.no_library:
-        raise PackageError(f"{ADDON}/bin has no library; ./dev setup builds it, --no-library leaves it out")
+        files[LICENCES] = licences.collect(options.downloads, ROOT, options.zig, options.interface).encode()
     return files, list(libraries)
 
 
@@ -180,7 +173,7 @@ def main():
     try:
         options = read_arguments(sys.argv[1:])
         if options.targets:
-            print(*targets_of_others(), sep="\n")
+            print(*packed_targets(options.all).values(), sep="\n")
             return 0
         if options.check:
             return 0

@@ -53,7 +53,7 @@ jobs_of() {
   case $1 in
     cpp) printf '%s\n' cpp fuzz ;;
     stability) printf '%s\n' stability stability_changes ;;
-    commands) printf '%s\n' commands report report_smoke ;;
+    commands) printf '%s\n' commands setup report report_smoke ;;
     export) printf '%s\n' export_diet export_pictures export_package export_android ;;
     render)
       for renderer in ${LOBELIGHT_RENDERERS:-mobile gl_compatibility forward_plus}; do
@@ -90,6 +90,7 @@ prepare_tests() {
   need_gdunit
   need_import
   [[ ! $wanted =~ \ (render_[a-z_]+)\  ]] || bake_demo_tables thesis_8
+  [[ $wanted != *" export_package "* ]] || need_package_libraries
   [[ $wanted != *" export_android "* ]] || bake_demo_tables "${DEMO_SETS[@]}"
   [[ ! $wanted =~ \ (stability|stability_changes)\  ]] || need_python stability
   [[ $wanted != *" crosscheck "* ]] || need_python crosscheck
@@ -177,6 +178,12 @@ run_render() {
 run_commands() {
   run_logged commands in_time bash "$ROOT/tests/commands/errors_test.sh"
   judge commands
+}
+
+# What the set-up does where the outside changes.
+run_setup() {
+  run_logged setup in_time bash "$ROOT/tests/commands/setup_test.sh"
+  judge setup
 }
 
 # What ./dev report makes of measurements.
