@@ -9,42 +9,13 @@
 
 #include "base/pi.h"
 #include "measured_files.h"
+#include "refusal.h"
 
 namespace lobelight::fuzz {
 
 namespace {
 
 constexpr double kHalfPi = 0.5 * kPi;
-
-// Messages are shown in a line of the editor.
-constexpr std::size_t kLongestMessage = 1000;
-
-// Whether `text` is UTF-8 as RFC 3629 has it, without control characters.
-bool is_one_clean_line(const std::string& text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const auto byte = [&](std::size_t n) -> unsigned {
-      return at + n < text.size() ? static_cast<unsigned char>(text[at + n]) : 0U;
-    };
-    const unsigned lead = byte(0);
-    if (lead < 0x80) {
-      if (lead < 0x20 || lead == 0x7f) return false;
-      ++at;
-      continue;
-    }
-    const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-    if (lead < 0xc2 || lead > 0xf4) return false;
-    for (std::size_t n = 1; n < length; ++n) {
-      if ((byte(n) & 0xc0U) != 0x80U) return false;
-    }
-    // Overlong forms, surrogates, and what is beyond U+10FFFF.
-    if (lead == 0xe0 && byte(1) < 0xa0) return false;
-    if (lead == 0xed && byte(1) > 0x9f) return false;
-    if (lead == 0xf0 && byte(1) < 0x90) return false;
-    if (lead == 0xf4 && byte(1) > 0x8f) return false;
-    at += length;
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -92,11 +63,8 @@ void accept(const MeasuredData& data) {
 
 void refuse(const std::string& message, const std::string& file) {
   ++counts.refused;
-  const std::string start = file + ": ";
-  require(message.rfind(start, 0) == 0 && message.size() > start.size(),
-          "refuses a file without its name or a reason");
-  require(message.size() <= kLongestMessage, "refuses a file with an endless message");
-  require(is_one_clean_line(message), "refuses a file with a message that is not one line of text");
+  const std::string wrong = testing::wrong_in_refusal(message, file);
+  require(wrong.empty(), "is refused with a message that " + wrong);
 }
 
 std::string scratch_path() {

@@ -36,7 +36,7 @@ void accept(Panorama picture);
 // Accepted measurements: finite and not negative in all channels, down to the horizon.
 void accept(const MeasuredData& data);
 
-// A refusal: "FILE: reason" on one line of UTF-8 without control characters, of bounded length.
+// A refusal, as testing::wrong_in_refusal() has it; `file` is empty for what is no file.
 void refuse(const std::string& message, const std::string& file);
 
 // A file for readers that take a path: $LOBELIGHT_FUZZ_SCRATCH, or one in the system's folder.

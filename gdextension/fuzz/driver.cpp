@@ -20,6 +20,7 @@
 #include <string>
 
 #include "checks.h"
+#include "coverage.h"
 #include "mutator.h"
 
 // Of sanitizer/allocator_interface.h, which g++ does not install; its library has them.
@@ -67,8 +68,9 @@ void write_json(const std::string& failure, const std::string& kept) {
   if (!file) return;
   std::fprintf(file,
                "{\"reader\": \"%s\", \"inputs\": %" PRIu64 ", \"accepted\": %" PRIu64
-               ", \"refused\": %" PRIu64 ", \"seconds\": %.1f, \"failure\": ",
-               kReader, tried, counts.accepted, counts.refused, elapsed());
+               ", \"refused\": %" PRIu64 ", \"blocks\": %" PRIu64
+               ", \"seconds\": %.1f, \"failure\": ",
+               kReader, tried, counts.accepted, counts.refused, blocks_reached(), elapsed());
   if (failure.empty()) {
     std::fputs("null, \"input\": null}", file);
   } else {
@@ -204,10 +206,14 @@ void fuzz_for_a_while() {
     }
   }
   Mutator mutator(files, options.seed);
+  std::uint64_t blocks = blocks_reached();
   double next_line = 5.0;
   while (tried < options.inputs && elapsed() < options.seconds) {
     const Bytes input = mutator.next();
-    if (run(input)) mutator.keep(input);
+    const bool accepted = run(input);
+    const bool reaches_more = blocks_reached() > blocks;
+    blocks = blocks_reached();
+    if (reaches_more || accepted) mutator.keep(input, reaches_more);
     if (elapsed() < next_line) continue;
     next_line += 5.0;
     std::fprintf(stderr, "  %s: %" PRIu64 " inputs, %.0f of %.0f s\n", kReader, tried, elapsed(),
@@ -240,8 +246,9 @@ int main(int count, char** arguments) {
   } else {
     for (const std::string& path : options.files) run(contents(path));
   }
-  std::printf("%-5s %9" PRIu64 " inputs, %9" PRIu64 " accepted, %9" PRIu64 " refused\n", kReader,
-              tried, counts.accepted, counts.refused);
+  std::printf("%-8s %9" PRIu64 " inputs, %9" PRIu64 " accepted, %9" PRIu64 " refused, %6" PRIu64
+              " basic blocks reached\n",
+              kReader, tried, counts.accepted, counts.refused, blocks_reached());
   if (__lsan_do_recoverable_leak_check() != 0) {
     const char* const leak = "leaks memory, as the sanitizer's report above says";
     std::fprintf(stderr, "%s: the reader %s.\n", kReader, leak);

@@ -10,6 +10,7 @@ namespace lobelight::fuzz {
 namespace {
 
 constexpr std::size_t kMostAccepted = 256;
+constexpr std::size_t kMostFar = 4096;
 constexpr std::size_t kRoomToGrow = 4096;
 constexpr std::size_t kLongestCopy = 64;
 
@@ -50,15 +51,18 @@ std::size_t Mutator::place(const Bytes& bytes, std::size_t length) {
 }
 
 const Mutator::Bytes& Mutator::any_file() {
-  if (accepted_.empty() || below(2) == 0) return seeds_[below(seeds_.size())];
-  return accepted_[below(accepted_.size())];
+  const std::size_t kind = below(3);
+  if (kind == 1 && !accepted_.empty()) return accepted_[below(accepted_.size())];
+  if (kind == 2 && !far_.empty()) return far_[below(far_.size())];
+  return seeds_[below(seeds_.size())];
 }
 
-void Mutator::keep(const Bytes& input) {
-  if (accepted_.size() < kMostAccepted) {
-    accepted_.push_back(input);
+void Mutator::keep(const Bytes& input, bool reaches_more) {
+  std::vector<Bytes>& files = reaches_more ? far_ : accepted_;
+  if (files.size() < (reaches_more ? kMostFar : kMostAccepted)) {
+    files.push_back(input);
   } else {
-    accepted_[below(kMostAccepted)] = input;
+    files[below(files.size())] = input;
   }
 }
 

@@ -7,9 +7,9 @@
 
 namespace lobelight::fuzz {
 
-// Makes inputs from seeds and from mutants that were accepted. The same seeds, number and answers
-// give the same inputs on every machine: of the standard library only the generator is used, whose
-// numbers the standard fixes, not its distributions.
+// Makes inputs from seeds and from mutants that were accepted or went new ways. The same seeds,
+// number and answers give the same inputs on every machine: of the standard library only the
+// generator is used, whose numbers the standard fixes, not its distributions.
 class Mutator {
  public:
   using Bytes = std::vector<std::uint8_t>;
@@ -20,8 +20,9 @@ class Mutator {
   // The next input: one of the files known, changed in 1 to 8 places.
   Bytes next();
 
-  // Says that the last input was accepted, so that later ones may start from it.
-  void keep(const Bytes& input);
+  // Says that the last input was accepted, or that it reached code that none before it has, so
+  // that later ones may start from it. Those that reach more are kept as long as there is room.
+  void keep(const Bytes& input, bool reaches_more);
 
  private:
   std::size_t below(std::size_t bound);
@@ -32,6 +33,7 @@ class Mutator {
   std::mt19937_64 random_;
   std::vector<Bytes> seeds_;
   std::vector<Bytes> accepted_;
+  std::vector<Bytes> far_;  // those that reached more
   std::size_t longest_;
 };
 

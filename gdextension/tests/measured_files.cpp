@@ -285,4 +285,37 @@ std::vector<char> rgl_file(const RglRecipe& recipe) {
   return writer.file();
 }
 
+namespace {
+
+std::vector<float> ramp(std::size_t count) {
+  std::vector<float> values;
+  for (std::size_t n = 0; n < count; ++n) {
+    values.push_back(0.125F * static_cast<float>((n * 7 + 3) % 16));
+  }
+  return values;
+}
+
+// Squares of 3 × 4 values and less: mutations meet the structure as often as the numbers.
+std::vector<char> small_rgl_file(std::vector<float> azimuths) {
+  const std::uint64_t p = azimuths.size();
+  TensorWriter writer;
+  writer.add_bytes("description", "fuzz");
+  writer.add("theta_i", {2}, {0.0F, 1.5F});
+  writer.add("phi_i", {p}, std::move(azimuths));
+  writer.add("sigma", {3, 4}, ramp(12));
+  writer.add("ndf", {4, 3}, ramp(12));
+  writer.add("vndf", {p, 2, 3, 3}, ramp(p * 18));
+  writer.add("rgb", {p, 2, 3, 2, 2}, ramp(p * 24));
+  writer.add_bytes("jacobian", std::string(1, '\1'));
+  return writer.file();
+}
+
+}  // namespace
+
+std::vector<std::vector<char>> small_rgl_files() {
+  const auto pi = static_cast<float>(kPi);
+  return {small_rgl_file({0.0F}), small_rgl_file({-pi, -0.5F * pi, 0.0F, 0.5F * pi, pi}),
+          small_rgl_file({-pi, -0.75F * pi, -0.5F * pi})};
+}
+
 }  // namespace lobelight::testing

@@ -66,4 +66,8 @@ struct RglRecipe {
 };
 std::vector<char> rgl_file(const RglRecipe& recipe);
 
+// The smallest whole RGL files, of 1 to 4 kB: an isotropic one, and two whose azimuths go all
+// round and over a quadrant. They stand for no surface.
+std::vector<std::vector<char>> small_rgl_files();
+
 }  // namespace lobelight::testing

@@ -176,7 +176,7 @@ refuses "diet, the acceptance of a scene of one's own" "one too many" diet --acc
 refuses "diet, an option of the acceptance" "goes with --acceptance" diet --instructions "$root"
 refuses "fuzz, no time" "--minutes" fuzz
 refuses "fuzz, no time at all" "above 0" fuzz --minutes 0
-refuses "fuzz, an unknown reader" "exr hdr merl rgl" fuzz --minutes 1 --reader png
+refuses "fuzz, an unknown reader" "exr hdr merl rgl measured recipe" fuzz --minutes 1 --reader png
 refuses "fuzz, a seed that is no number" "--seed is 'x'" fuzz --minutes 1 --seed x
 refuses "fuzz, JSON in a missing folder" "missing/f.json" fuzz --minutes 1 --json missing/f.json
 refuses "an unknown command" "no-such-command" no-such-command

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# feeds damaged files to the file readers under sanitizers (--minutes N [--json FILE] [--seed N] [--reader R])
+# feeds damaged files and recipes to the core under sanitizers (--minutes N [--json FILE] [--seed N] [--reader R])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 usage() {
@@ -9,20 +9,26 @@ usage: ./dev fuzz --minutes N [--json FILE] [--seed N] [--reader R]…
 Mutates small files and has the readers read them, with the C++ core under the address and
 undefined-behaviour sanitizers. An input that crashes a reader, hangs it, takes too much memory or
 breaks a promise (a refusal is one line that names the file, a picture has its size and no texel that
-is no light) is kept in build/fuzz, named in one sentence, and makes the exit status 1. To read it
-again: build/cmake/fuzz/lobelight_fuzz_READER FILE. Inputs of merl are abridged files.
+is no light, a table's weights are numbers that add up to the light) is kept in build/fuzz, named in
+one sentence, and makes the exit status 1. To read it again: build/cmake/fuzz/lobelight_fuzz_READER FILE.
+
+exr, hdr   pictures
+merl, rgl  files of measurements; those of merl are abridged
+measured   both, and what is made of them: a material, and a small table of it
+recipe     recipes of tables and sets, and small tables
 
 --minutes N  for all readers together, for example 0.5
---json FILE  {"seed", "readers": [{"reader", "inputs", "accepted", "refused", "seconds", "failure", "input"}]}
+--json FILE  {"seed", "readers": [{"reader", "inputs", "accepted", "refused", "blocks", "seconds",
+             "failure", "input"}]}; blocks: basic blocks of the core that the inputs reached
 --seed N     of the mutations (default: 1); the same one gives the same inputs
---reader R   only this one: exr, hdr, merl or rgl
+--reader R   only this one
 
 The last line is "fuzz: N passed, N failed", readers; the exit status is 1 if one failed.
 USAGE
 }
 
 help_if_asked "$@"
-known=(exr hdr merl rgl)
+known=(exr hdr merl rgl measured recipe)
 readers=()
 minutes="" json="" seed=1
 while (($# > 0)); do
@@ -54,7 +60,7 @@ done
 [[ -n $minutes ]] || die "fuzz: say for how long, for example --minutes 1"
 ((${#readers[@]} > 0)) || readers=("${known[@]}")
 
-bash "$ROOT/tools/setup/fuzz.sh"
+bash "$ROOT/tools/setup/fuzz.sh" lobelight_fuzz
 build=$ROOT/build/cmake
 
 # OpenJPH, within OpenEXR, prints each fault that it finds in a file: errors here, remarks to stdout.

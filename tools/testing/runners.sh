@@ -41,7 +41,15 @@ run_cpp() {
   judge cpp --junit "$RESULTS/cpp.xml"
 }
 
-# A few seconds of the file readers under sanitizers.
+# Those that the build for ./dev fuzz has, under the address and undefined-behaviour sanitizers.
+run_cpp_sanitized() {
+  rm -f "$RESULTS/cpp-sanitized.xml"
+  run_logged cpp-sanitized in_time "$ROOT/build/cmake/fuzz/lobelight_sanitized_tests" -r=junit \
+    "-o=$RESULTS/cpp-sanitized.xml"
+  judge cpp-sanitized --junit "$RESULTS/cpp-sanitized.xml"
+}
+
+# A few seconds of mutated files and recipes under sanitizers.
 run_fuzz() {
   run_logged fuzz in_time bash "$ROOT/tools/commands/fuzz.sh" --minutes 0.1 --seed 1
   judge fuzz
@@ -51,7 +59,7 @@ run_fuzz() {
 jobs_of() {
   local renderer
   case $1 in
-    cpp) printf '%s\n' cpp fuzz ;;
+    cpp) printf '%s\n' cpp cpp_sanitized fuzz ;;
     stability) printf '%s\n' stability stability_changes ;;
     commands) printf '%s\n' commands setup report report_smoke ;;
     export) printf '%s\n' export_diet export_pictures export_package export_android ;;
@@ -86,7 +94,7 @@ prepare_tests() {
   need_display
   need_python
   if [[ $wanted =~ \ (cpp|stability|crosscheck)\  ]]; then need_native_tests; else need_library; fi
-  [[ $wanted != *" fuzz "* ]] || bash "$ROOT/tools/setup/fuzz.sh"
+  [[ $wanted != *" fuzz "* ]] || bash "$ROOT/tools/setup/fuzz.sh" lobelight_fuzz lobelight_sanitized_tests
   need_gdunit
   need_import
   [[ ! $wanted =~ \ (render_[a-z_]+)\  ]] || bake_demo_tables thesis_8

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/one_line.h"
 #include "brdf/ggx.h"
 #include "brdf/measured.h"
 #include "brdf/ward.h"
@@ -33,7 +34,7 @@ void validate_brdf(std::string_view name, const glm::dvec2& alpha) {
   }
   const auto& names = brdf_names();
   if (is_file || std::find(names.begin(), names.end(), name) != names.end()) return;
-  message << "brdf is \"" << name << "\", which is not known; known are";
+  message << "brdf is \"" << one_line(name) << "\", which is not known; known are";
   const char* separator = " ";
   for (const std::string& known : names) {
     message << separator << '"' << known << '"';

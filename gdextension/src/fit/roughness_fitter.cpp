@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/one_line.h"
 #include "base/parallel.h"
 #include "fit/continuation.h"
 #include "fit/table_fitter.h"
@@ -239,7 +240,8 @@ void validate(const SetRecipe& recipe) {
   }
   const auto& names = brdf_names();
   if (std::find(names.begin(), names.end(), recipe.brdf) == names.end()) {
-    sentence << "brdf is \"" << recipe.brdf << "\", but sets of tables are fitted of models only.";
+    sentence << "brdf is \"" << one_line(recipe.brdf)
+             << "\", but sets of tables are fitted of models only.";
     refuse(sentence);
   }
   if (recipe.views.x < 2 || recipe.views.y < 2) {

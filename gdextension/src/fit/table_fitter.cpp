@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/one_line.h"
 #include "base/parallel.h"
 #include "brdf/measured.h"
 #include "fit/continuation.h"
@@ -71,7 +72,7 @@ FitMethod fit_method_from_string(std::string_view name) {
     if (name == to_string(method)) return method;
   }
   std::ostringstream sentence;
-  sentence << "method is \"" << name
+  sentence << "method is \"" << one_line(name)
            << "\", which is not known; known are \"continuation\", \"independent\".";
   refuse(sentence);
 }

@@ -24,6 +24,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/one_line.h"
 #include "image/exr_chroma.h"
 #include "image/exr_layers.h"
 #include "image/exr_window.h"

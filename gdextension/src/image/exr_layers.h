@@ -34,8 +34,4 @@ std::vector<ExrLayer> find_layers(const std::vector<Imf::Header>& parts);
 ExrLayer choose_layer(const std::vector<Imf::Header>& parts, const std::string& label,
                       const std::string& name);
 
-// Text from a file for use in a message: one line of UTF-8, without control characters and a full
-// stop, of bounded length. A byte that belongs to no character becomes a question mark.
-std::string one_line(const std::string& text);
-
 }  // namespace lobelight

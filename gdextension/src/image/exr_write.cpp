@@ -11,8 +11,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "base/one_line.h"
 #include "image/exr.h"
-#include "image/exr_layers.h"
 #include "image/file_io.h"
 #include "image/image_error.h"
 
