@@ -271,7 +271,13 @@ func test_a_conversion_reaches_instances_and_is_saved() -> void:
 	var added := MeshInstance3D.new()
 	added.material_override = StandardMaterial3D.new()
 	converted.add_child(added)
+	await await_idle_frame()
+	await await_idle_frame()
+	assert_bool(_scene_tree_lists("Ball")).is_false()
 	menu.convert_nodes([root.get_node("Instance0/Instance1")])
+	await await_idle_frame()
+	await await_idle_frame()
+	assert_bool(_scene_tree_lists("Ball")).is_true()
 	# What a script has added is in no file.
 	assert_object(added.material_override).is_instanceof(StandardMaterial3D)
 	assert_object(converted.get_active_material(0)).is_instanceof(LobeMaterial3D)
@@ -290,6 +296,18 @@ func test_a_conversion_reaches_instances_and_is_saved() -> void:
 	assert_bool(root.is_editable_instance(root.get_node("Instance0"))).is_false()
 	# The editor goes by its own count of the steps.
 	steps.redo()
+
+
+# Whether a node is among those that the editor's scene tree shows.
+func _scene_tree_lists(name: String) -> bool:
+	var docks := EditorInterface.get_base_control().find_children("*", "SceneTreeDock", true, false)
+	for tree: Tree in docks[0].find_children("*", "Tree", true, false):
+		var item := tree.get_root()
+		while item != null:
+			if item.get_text(0) == name:
+				return true
+			item = item.get_next_in_tree()
+	return false
 
 
 func _save(root: Node, path: String) -> String:
