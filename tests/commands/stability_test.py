@@ -32,7 +32,7 @@ CHANGES = {
     "frame.gdshaderinc": ("square < 1e8", "square < 1e2", ["frame"]),
     "half_float.gdshaderinc": ("0xFFFu", "0xFFEu", ["half"]),
     "lobe_table.gdshaderinc": ("0.1141528", "0.1151528", ["position_16x8_lobes_1"]),
-    "material.gdshaderinc": ("-16.0 * roughness", "-15.0 * roughness", ["material_everything_levels"]),
+    "material.gdshaderinc": ("-16.0 * roughness", "-12.0 * roughness", ["material_everything_levels"]),
     "material_inputs.gdshaderinc": ("texel * 2.0 - 1.0", "texel * 2.0 - 0.99", ["material_with_maps_directions"]),
     "panorama.gdshaderinc": ("0.156583", "0.157583", ["panorama_1"]),
     "pyramid_pack.gdshader": ("uvec4(255u)", "uvec4(254u)", ["pack_4_0"]),

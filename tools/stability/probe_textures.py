@@ -14,9 +14,9 @@ def level_colours():
     return np.stack([1 + 0.25 * n, 2 - 0.125 * n, 0.5 + 0.0 * n], axis=1)
 
 
-def levels_cube():
+def levels_cube(colours):
     face = b""
-    for n, colour in enumerate(level_colours()):
+    for n, colour in enumerate(colours):
         side = LEVELS_SIZE >> n
         face += np.tile(np.array([*colour, 1.0], dtype=np.float32), side * side).tobytes()
     return Texture(face * 6, LEVELS_SIZE, LEVELS_SIZE, 6, True, "cube", True)
@@ -43,4 +43,9 @@ def directions_cube():
 
 
 def textures():
-    return {"levels": levels_cube(), "directions": directions_cube()}
+    colours = level_colours()
+    return {
+        "levels": levels_cube(colours),
+        "flat": levels_cube(np.ones_like(colours)),
+        "directions": directions_cube(),
+    }

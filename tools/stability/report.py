@@ -31,7 +31,6 @@ SHADER_TITLES = {
     "shader coat": "Clear coat",
     "shader diffuse": "Diffuse light",
     "shader material": "Whole materials",
-    "shader inputs": "Textures of materials",
     "shader colour": "Colours",
     "shader half": "Half floats",
     "shader faces": "Faces of cube maps",

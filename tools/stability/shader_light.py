@@ -1,7 +1,8 @@
 """Probes that fetch the environment: whole reflections, the coat, diffuse light.
 
 In the cube map `levels` each level has one colour, so that its light says at which level it was looked up; in `directions`
-the light is 1 + d/2, which says where. Between them they know what a look-up is.
+the light is 1 + d/2, which says where. Between them they know what a look-up is. `flat` is white: what is reflected of it is
+the energy of the lobes.
 """
 
 import math
@@ -39,6 +40,8 @@ def direction_light(d):
 
 def look_up(cube, d, variance, values, angle, relative):
     """(light, bound, bound of halves): `angle` and `relative` are what direction and variance may be off by."""
+    if cube == "flat":
+        return (mpf(1),) * 3, 0.0, HALF
     if cube == "directions":
         wanted = direction_light(d)
         return wanted, DIRECTION_BOUND + 0.5 * angle[0], 0.5 * angle[1] + 1.5 * HALF
@@ -49,9 +52,9 @@ def look_up(cube, d, variance, values, angle, relative):
     return wanted, LEVEL_STEP * (off + steep * relative[0]) + 4 * U, LEVEL_STEP * steep * relative[1] + 2.5 * HALF
 
 
-def sums(table, view, cube, values, to_space):
+def sums(table, view, cube, values, to_space, roughness=0.0, anisotropy=0.0):
     """Light, grazing light, albedo, grazing albedo, each (exact, bound, bound of halves)."""
-    o, lobes = expect_lobes(table, view)
+    _o, lobes = expect_lobes(table, view, roughness, anisotropy)
     totals = [np.zeros(3, dtype=object) + mpf(0), np.zeros(3, dtype=object) + mpf(0), mpf(0), mpf(0)]
     off = np.zeros((4, 2))
     for lobe in lobes:
@@ -139,11 +142,11 @@ def reflection_probes(quick):
             name = f"table_reflect_{count}_{'long' if long else 'round'}"
             alpha = (0.3, 0.05) if long else (0.15, 0.15)
             table = odd_table(name, count, 8, 4 if long else 0, alpha, count % 4 == 3, seed=100 + 2 * count + long)
-            for cube in ("levels", "directions") if count in (1, 3, 8, 32) else ("levels",):
+            for cube in ("levels", "directions", "flat") if count in (1, 3, 8, 32) else ("levels", "flat"):
                 # Turned and scaled where directions are told apart.
                 rotation = tuple(tuple(single(c)) for c in turn(count))
                 values = light(
-                    LEVELS_SIZE if cube == "levels" else 1,
+                    1 if cube == "directions" else LEVELS_SIZE,
                     "disc",
                     0.5 if count % 2 else 0.0,
                     cube,

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 import exact_shader as shader
+from about import About
 from exact import mpf, normalised, vector
 from probe_textures import LEVELS_SIZE
 from probes import DIVISION, U, Near, Probe, Texture, exp2_error, pow_error, single
@@ -15,38 +16,25 @@ from shader_frames import orthonormal_frame, projection
 from shader_points import light, turn, view_at
 from shader_tables import odd_table
 from shader_values import encode_error
+from shader_widths import set_levels
 
 LARGEST = 65504.0
 
-
-@dataclass
-class About:
-    """A number, and how far off it may be in single precision and, beyond that, with halves."""
-
-    value: mpf
-    off: float = 0.0
-    half: float = 0.0
-
-    def __add__(self, other):
-        other = other if isinstance(other, About) else About(mpf(other))
-        value = self.value + other.value
-        return About(value, self.off + other.off + U * abs(float(value)), self.half + other.half)
-
-    def __sub__(self, other):
-        return self + About(-other.value, other.off, other.half)
-
-    def __mul__(self, other):
-        other = other if isinstance(other, About) else About(mpf(other))
-        a, b = abs(float(self.value)), abs(float(other.value))
-        return About(
-            self.value * other.value, a * other.off + b * self.off + U * a * b, a * other.half + b * self.half
-        )
-
-    __rmul__ = __mul__
-    __radd__ = __add__
-
-    def clamped(self, low, high):
-        return About(min(max(self.value, mpf(low)), mpf(high)), self.off, self.half)
+# Textures of one texel a row: where its four numbers are in the row, the uniform, the defines.
+MAPS = {
+    "orm": (44, "orm_texture", ("ORM_TEXTURE", "AO")),
+    "normal": (48, "normal_texture", ("NORMAL_TEXTURE",)),
+    "flow": (52, "flowmap", ("FLOWMAP",)),
+    "albedo": (56, "albedo_texture", ("ALBEDO_TEXTURE",)),
+    "emission": (60, "emission_texture", ("EMISSION_TEXTURE",)),
+    "coat": (64, "coat_texture", ("COAT_TEXTURE",)),
+    "roughness": (68, "roughness_texture", ("ROUGHNESS_TEXTURE",)),
+    "metallic": (72, "metallic_texture", ("METALLIC_TEXTURE",)),
+    "ao": (76, "ao_texture", ("AO", "AO_TEXTURE")),
+}
+COAT_STRENGTH = 0.75
+EMISSION_FACTOR = (2.0, 0.5, 1.0)
+CHANNELS = {"roughness": (0, 1, 0, 0), "metallic": (0.5, 0.25, 0.25, 0), "ao": (0, 0, 0, 1)}
 
 
 def fresnel(first, second, f0, f90):
@@ -78,8 +66,13 @@ class Surface:
     emitted: tuple | None = None
     turned: tuple | None = None
     anisotropy: float = 0.7
-    normal_scale: float | None = None
-    occluded: bool = False
+    normal_scale: float = 1.0
+    maps: tuple = ()
+
+    def texel(self, row, name):
+        """Of a map, where there is one."""
+        first = MAPS[name][0]
+        return tuple(mpf(x) for x in row[first : first + 4]) if name in self.maps else None
 
     def defines(self):
         names = [*self.table.defines(), "LOBELIGHT_ALPHA"]
@@ -89,11 +82,8 @@ class Surface:
         names += ["LOBELIGHT_TURNED"] * (self.turned is not None)
         if self.coat:
             names.append(f"LOBELIGHT_COAT_LOBES {self.coat.lobes}")
-        if self.occluded:
-            names += ["LOBELIGHT_ORM_TEXTURE", "LOBELIGHT_AO"]
-        if self.normal_scale is not None:
-            names += ["LOBELIGHT_NORMAL_TEXTURE", "LOBELIGHT_FLOWMAP"]
-        if self.occluded or self.normal_scale is not None:
+        names += [f"LOBELIGHT_{define}" for name in self.maps for define in MAPS[name][2]]
+        if self.maps:
             names += ["LOBELIGHT_TEXTURED", "LOBELIGHT_SAMPLING filter_nearest, repeat_disable"]
         return tuple(names)
 
@@ -111,12 +101,15 @@ class Surface:
             values["lobelight_emitted"] = self.emitted
         if self.turned:
             values["lobelight_anisotropy_turn"] = self.turned
-        if self.normal_scale is not None:
+        if "normal" in self.maps:
             values["lobelight_normal_scale"] = [self.normal_scale]
+        if "emission" in self.maps:
+            values["lobelight_emission_factor"] = EMISSION_FACTOR
+        values |= {f"lobelight_{name}_channel": CHANNELS[name] for name in self.maps if name in CHANNELS}
         if self.coat:
             lookup = self.coat.lookup()
             values |= {
-                "lobelight_coat_amount": (0.75, 0.3),
+                "lobelight_coat_amount": (COAT_STRENGTH, 0.3),
                 "lobelight_coat_alpha": self.coat.alpha[:1],
                 "lobelight_coat_lookup": (lookup[0], lookup[1], lookup[3]),
             }
@@ -127,9 +120,9 @@ def shading_frame(surface, row):
     """(tangent, bitangent, normal) of the lobes, in view space."""
     normal = vector(row[:3])
     frame = orthonormal_frame(normal, vector(row[4:7]), vector(row[8:11]))
-    if surface.normal_scale is not None:
+    if texel := surface.texel(row, "normal"):
         # z is what is left to one; the scale mixes the map's normal with the surface's.
-        x, y = (2 * mpf(c) - 1 for c in row[48:50])
+        x, y = (2 * c - 1 for c in texel[:2])
         z = shader.mp.sqrt(max(1 - x * x - y * y, mpf(0)))
         scale = mpf(surface.normal_scale)
         normal = normalised(shader.columns_times(frame, (x * scale, y * scale, 1 + scale * (z - 1))))
@@ -137,10 +130,10 @@ def shading_frame(surface, row):
         tangent = shader.any_tangent(normal)
         return tangent, shader.cross(normal, tangent), normal
     direction = vector(surface.turned) if surface.turned else (mpf(1), mpf(0))
-    if surface.normal_scale is not None:
-        flow = tuple(2 * mpf(c) - 1 for c in row[52:54])
+    if texel := surface.texel(row, "flow"):
+        flow = tuple(2 * c - 1 for c in texel[:2])
         square = flow[0] ** 2 + flow[1] ** 2
-        if mpf(surface.anisotropy) * mpf(row[55]) > mpf("0.01") and square > mpf("1e-4"):
+        if mpf(surface.anisotropy) * texel[3] > mpf("0.01") and square > mpf("1e-4"):
             c, s = (f / shader.mp.sqrt(square) for f in flow)
             direction = (c * direction[0] - s * direction[1], c * direction[1] + s * direction[0])
     c, s = direction
@@ -175,12 +168,13 @@ def expect_material(surface, cube, values, row, renderer):
         def to_environment(direction):
             return shader.columns_times(axes_there, direction)
 
-    reflection = channels(*sums(surface.table, local, cube, values, to_environment))
-    orm = [mpf(1), mpf(surface.roughness), mpf(surface.metallic if surface.dielectric else 1.0)]
-    if surface.occluded:
-        orm = [a * mpf(b) for a, b in zip(orm, row[44:47])]
-    ao, roughness, metallic = orm
-    base = vector(surface.albedo)
+    ao, roughness, metallic = occlusion_roughness_metallic(surface, row)
+    anisotropy = mpf(surface.anisotropy) * (surface.texel(row, "flow") or (0, 0, 0, 1))[3]
+    reflection = channels(*sums(surface.table, local, cube, values, to_environment, float(roughness), float(anisotropy)))
+    base = [About(b, 2 * U) for b in vector(surface.albedo)]
+    if texel := surface.texel(row, "albedo"):
+        base = [b * decoded(x, renderer) for b, x in zip(base, texel)]
+    is_occluded = "orm" in surface.maps or "ao" in surface.maps
     d0, d90 = vector(surface.dielectric or (0.0, 1.0))
     albedo = reflection[2].clamped("0.05", 1e9)
     slope = 1 / float(albedo.value) ** 2
@@ -188,7 +182,7 @@ def expect_material(surface, cube, values, row, renderer):
         1 / albedo.value - 1, albedo.off * slope + DIVISION / float(albedo.value) + 2 * U, albedo.half * slope
     )
     o = shader.clamp_view(local)
-    occluded = occlusion(o[2], ao, roughness, 100 * U * 100 ** (float(local[2]) < 0.1)) if surface.occluded else None
+    occluded = occlusion(o[2], ao, roughness, 100 * U * 100 ** (float(local[2]) < 0.1)) if is_occluded else None
     diffuse = None
     if surface.dielectric:
         centre = shader.columns_times(camera, axes[2])
@@ -213,8 +207,8 @@ def expect_material(surface, cube, values, row, renderer):
         )
     checks = []
     for c in range(3):
-        f0 = About(d0 * (1 - metallic) + base[c] * metallic, 4 * U) if surface.dielectric else About(base[c])
-        f90 = About(d90 * (1 - metallic) + metallic, 4 * U) if surface.dielectric else About(mpf(1))
+        f0 = About(d0 * (1 - metallic), 6 * U) + base[c] * About(metallic, 6 * U) if surface.dielectric else base[c]
+        f90 = About(d90 * (1 - metallic) + metallic, 6 * U) if surface.dielectric else About(mpf(1))
         radiance = fresnel(reflection[0][c], reflection[1][c], f0, f90)
         if surface.compensated:
             radiance = radiance * (1 + f0 * lost)
@@ -225,27 +219,50 @@ def expect_material(surface, cube, values, row, renderer):
             if surface.compensated:
                 reflected = reflected * (1 + About(d0) * lost)
             left = (About(mpf(1)) - reflected).clamped(0, 1e9)
-            scattered = About(base[c] * (1 - metallic), 3 * U) * left
-            if surface.occluded:
+            scattered = base[c] * About(1 - metallic, 6 * U) * left
+            if is_occluded:
                 scattered = scattered * ao
             radiance = radiance + scattered * About(mpf(diffuse[c].exact[0]), diffuse[c].bound, diffuse[c].medium)
         if coat:
             share = fresnel(coat[2], coat[3], About(mpf("0.04")), About(mpf(1)))
             above = fresnel(coat[0][c], coat[1][c], About(mpf("0.04")), About(mpf(1)))
-            radiance = radiance * (About(mpf(1)) - share * mpf("0.75")) + above * mpf("0.75")
+            strength = COAT_STRENGTH * (surface.texel(row, "coat") or (mpf(1),))[0]
+            radiance = radiance * (About(mpf(1)) - share * strength) + above * strength
         if renderer == "gl_compatibility":
             seen = row[28 + 10] > 0
         else:
             seen = not parallel or row[28 + 5] < 0
         radiance = radiance * (mpf(values["energy"]) if seen else 0)
         if surface.emitted:
-            radiance = radiance + mpf(single(surface.emitted)[c])
+            radiance = radiance + mpf(surface.emitted[c])
+        if texel := surface.texel(row, "emission"):
+            radiance = radiance + decoded(texel[c], renderer) * EMISSION_FACTOR[c]
         checks.append(written(c, radiance, renderer, "radiance"))
-        checks.append(written(3 + c, About(base[c]), renderer, "albedo"))
-    checks.append(Near((6,), (metallic,), 4 * U, "metallic"))
+        checks.append(written(3 + c, base[c], renderer, "albedo"))
+    checks.append(Near((6,), (metallic,), 6 * U, "metallic"))
     checks.append(Near((7,), (roughness,), 4 * U, "roughness"))
-    checks.append(Near((8,), (surface.alpha,), U, "alpha"))
+    alpha = surface.alpha * (surface.texel(row, "albedo") or (0, 0, 0, 1))[3]
+    checks.append(Near((8,), (alpha,), U, "alpha"))
     return checks
+
+
+def occlusion_roughness_metallic(surface, row):
+    orm = [mpf(1), mpf(surface.roughness), mpf(surface.metallic if surface.dielectric else 1.0)]
+    if texel := surface.texel(row, "orm"):
+        orm = [a * b for a, b in zip(orm, texel)]
+    for n, name in enumerate(("ao", "roughness", "metallic")):
+        if texel := surface.texel(row, name):
+            orm[n] *= shader.dot(texel, CHANNELS[name])
+    return orm
+
+
+def decoded(texel, renderer):
+    """Of a texture of colours: Compatibility hands it out as sRGB."""
+    if renderer != "gl_compatibility":
+        return About(texel)
+    linear = shader.srgb_to_linear(texel)
+    power = pow_error(float(texel + mpf("0.055")) / 1.055, 2.4)
+    return About(linear, float(linear) * (2.4 * (DIVISION + 2 * U) + power + DIVISION))
 
 
 def written(at, light_, renderer, unit):
@@ -280,12 +297,25 @@ def surfaces():
         dielectric=dielectric,
         compensated=True,
         emitted=(0.25, 0.0, 4.0),
-        occluded=True,
+        maps=("orm",),
     )
     mapped = Surface(long_table, albedo=albedo, roughness=0.375, anisotropy=0.75, turned=quarter, normal_scale=0.5)
+    mapped.maps = ("normal", "flow")
     plain = Surface(long_table, albedo=albedo, roughness=0.375, dielectric=dielectric, metallic=0.25)
+    textured = Surface(round_table, coat, albedo, roughness=1.0, dielectric=dielectric, emitted=(0.125, 0.0, 0.0))
+    textured.maps = ("albedo", "emission", "coat", "roughness", "metallic", "ao")
+    nine = set_levels(0.01, 1.0, 9)
+    set_round = odd_table("table_material_set_round", 4, 8, 0, levels=nine, seed=303)
+    set_long = odd_table("table_material_set_long", 4, 8, 4, levels=nine, seed=304)
+    varying = Surface(set_round, albedo=albedo, roughness=1.0, maps=("roughness",))
+    brushed = Surface(set_long, albedo=albedo, roughness=1.0, anisotropy=1.0, maps=("roughness", "flow"))
+    across = Surface(set_long, albedo=albedo, roughness=1.0, anisotropy=-0.5, maps=("roughness", "flow"))
     return [
         ("metal", metal, "levels"),
+        ("with all textures", textured, "levels"),
+        ("of many widths", varying, "directions"),
+        ("brushed in many ways", brushed, "directions"),
+        ("brushed across", across, "directions"),
         ("everything", whole, "levels"),
         ("everything", whole, "directions"),
         ("with maps", mapped, "directions"),
@@ -304,10 +334,10 @@ def probes(quick):
     """(tables, textures, probes)."""
     tables, textures, made = {}, {}, []
     rng = np.random.default_rng(21)
-    for name, surface, cube in surfaces():
+    for material, surface, cube in surfaces():
         tables[surface.table.name] = surface.table
         values = light(LEVELS_SIZE if cube == "levels" else 1, "disc", 0.0, cube, energy=0.75)
-        title = f"material {name}, {cube}"
+        title = f"material {material}, {cube}"
         probe = Probe(
             title.replace(" ", "_").replace(",", ""),
             "shader material",
@@ -320,7 +350,7 @@ def probes(quick):
         )
         probe.defines, probe.uniforms = surface.defines(), surface.uniforms()
         probe.textures = {"lobelight_table": surface.table.name}
-        for elevation in (0.0, 30.0, 70.0, 89.0, 95.0) if quick else (0.0, 0.01, 10, 30, 50, 70, 80, 89, 90, 95, 120):
+        for elevation in (0.0, 50.0, 95.0) if quick else (0.0, 0.01, 10, 30, 50, 70, 80, 89, 90, 95, 120):
             rows = []
             for azimuth, camera_seed, shot in (
                 (20.0, 0, (False, True)),
@@ -335,8 +365,8 @@ def probes(quick):
                     frame = [tuple(column) for column in rotation_to(tilt)]
                 view = [sum(frame[n][axis] * x for n, x in enumerate(view_at(elevation, azimuth))) for axis in range(3)]
                 camera = [x for column in turn(camera_seed) for x in (*column, 0)]
-                orm = (*rng.uniform(0.2, 1.0, 3), 1)
-                texels = (*orm, *rng.uniform(0.3, 0.7, 2), 1, 1, *rng.uniform(0, 1, 2), 0, rng.uniform(0.5, 1))
+                texels = (*rng.uniform(0.2, 1.0, 4), *rng.uniform(0.3, 0.7, 4), *rng.uniform(0, 1, 3), rng.uniform(0.5, 1))
+                texels += tuple(rng.uniform(0.1, 1, 24))
                 rows.append(
                     (*frame[2], 0, *frame[0], 0, *frame[1], 0, *view, 0, *camera, *projection(*shot), *texels)
                 )
@@ -344,14 +374,10 @@ def probes(quick):
         if surface.coat:
             tables[surface.coat.name] = surface.coat
             probe.textures["lobelight_coat_table"] = surface.coat.name
-        for define, uniform, first in (
-            (surface.occluded, "lobelight_orm_texture", 44),
-            (surface.normal_scale is not None, "lobelight_normal_texture", 48),
-            (surface.normal_scale is not None, "lobelight_flowmap", 52),
-        ):
-            if define:
-                textures[f"{probe.name}_{first}"] = row_texture(probe.rows, first)
-                probe.textures[uniform] = f"{probe.name}_{first}"
+        for name in surface.maps:
+            first, uniform, _defines = MAPS[name]
+            textures[f"{probe.name}_{name}"] = row_texture(probe.rows, first)
+            probe.textures[f"lobelight_{uniform}"] = f"{probe.name}_{name}"
         made.append(probe)
     return list(tables.values()), textures, made
 

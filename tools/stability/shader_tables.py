@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 
 import mpmath as mp
 import numpy as np
@@ -14,7 +14,7 @@ from shader_points import ANGLE_BOUND, column_bound, lobe_bounds, view_at
 from shader_widths import ROUGHNESSES, exact_levels, set_levels, width_errors
 
 
-@dataclass
+@dataclass(eq=False)
 class Table:
     """Texels as half floats hold them: (layers, rows, columns, 4), rows as lobe_table.gdshaderinc has them.
 
@@ -155,6 +155,7 @@ def places(table, o, roughness, anisotropy):
     return shares, row, ANGLE_BOUND * (table.places - 1), alpha, exchanged
 
 
+@cache
 def expect_lobes(table, view, roughness=0.0, anisotropy=0.0, only=None):
     """(the view within the table's range, the lobes)."""
     raw = vector(view)

@@ -104,7 +104,7 @@ def half_probe(quick):
     probe = Probe("half", "shader half", "half", 3, expect_half)
     rng = np.random.default_rng(5)
     exact = rng.integers(0x0400, 0x7BFF, 300).astype(np.uint16).view(np.float16).astype(float)
-    between = (exact[:-1] + np.nextafter(exact[:-1].astype(np.float16), np.float16(1e9)).astype(float)) / 2
+    between = (exact[:-1] + np.nextafter(exact[:-1].astype(np.float16), np.float16(np.inf)).astype(float)) / 2
     near = np.concatenate([np.nextafter(between.astype(np.float32), np.float32(s)) for s in (0, 1e9)]).astype(float)
     spread = np.exp(rng.uniform(math.log(6.2e-5), math.log(65000), 64 if quick else 4096))
     for title, values in (("halves", exact), ("ties", between), ("next to ties", near), ("any", spread)):

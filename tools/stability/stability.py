@@ -63,7 +63,7 @@ def native_lines(process, group):
         yield json.loads(line)
 
 
-def run_group(tool, group, quick, progress, records=None):
+def run_group(tool, group, quick, progress, records=None, is_judged=True):
     """The verdicts; the records go into `records` too."""
     command = [str(tool.resolve()), group] + (["--quick"] if quick else [])
     results, done, count = [], 0, None
@@ -74,7 +74,8 @@ def run_group(tool, group, quick, progress, records=None):
                 if count is None:
                     count = record["cases"]
                     continue
-                results += judge(group, record)
+                if is_judged:
+                    results += judge(group, record)
                 if records is not None:
                     records.append(record)
                 done += 1
@@ -88,7 +89,8 @@ def run_group(tool, group, quick, progress, records=None):
             # Also where this process is interrupted: the native one must not outlive it.
             process.kill()
     failed = sum(not result["passed"] for result in results)
-    progress.end(f"{group}: {len(results)} cases, {failed} failed, {time.monotonic() - started:.0f} s")
+    if is_judged:
+        progress.end(f"{group}: {len(results)} cases, {failed} failed, {time.monotonic() - started:.0f} s")
     return results
 
 
@@ -117,8 +119,7 @@ def run(arguments):
             results += run_group(arguments.tool, group, arguments.quick, progress, records)
     if "shader" in (arguments.group or GROUPS):
         if not tables:
-            # Not judged here.
-            run_group(arguments.tool, "table", True, progress, tables)
+            results += run_group(arguments.tool, "table", True, progress, tables, is_judged=False)
         results += shader_suite.run(arguments.quick, tables, progress)
     failures = [result for result in results if not result["passed"]]
     for result in failures:
