@@ -69,9 +69,9 @@ def sums(table, view, cube, values, to_space, roughness=0.0, anisotropy=0.0):
         w, tint, x = float(lobe.weight), float(max(lobe.tint)), float(grazing)
         brightest = float(max(wanted))
         for n in (0, 1):
-            # The derivative of (1 - c)^5 is at most 5 x^(4/5).
-            x_off = 5 * x**0.8 * lobe.cosine_bound[n] + (6 * U * x if n == 0 else 0.0)
-            tint_off = (0.02, 12 * HALF)[n] * table.second
+            cosine = float(lobe.cosine)
+            x_off = float(shader.schlick(cosine - lobe.cosine_bound[n])) - x + (8 * U * x if n == 0 else 0.0)
+            tint_off = (lobe.tint_bound, 12 * HALF * table.second)[n]
             w_off = lobe.weight_bound[n] + (3 * U * w if n == 0 else 0.0)
             light_off = w_off * tint * brightest + w * (tint * bounds[n] + tint_off * brightest)
             off[:, n] += (light_off, x * light_off + x_off * w * tint * brightest, w_off, x * w_off + x_off * w)
@@ -168,6 +168,8 @@ def reflection_probes(quick):
                 for number, frame in enumerate(frames[: 1 if quick else 2]):
                     rows = []
                     for elevation in (0.0, 40.0, 89.0, 90.0, 110.0) if quick else (0.0, 1e-3, 20, 40, 70, 89, 90, 110):
+                        if elevation == 0 and long and number:
+                            continue  # the quadrant of such a view is a matter of its last bit
                         for azimuth in (25.0, 200.0):
                             local = view_at(elevation, azimuth)
                             view = [sum(frame[n][axis] * local[n] for n in range(3)) for axis in range(3)]

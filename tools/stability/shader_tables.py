@@ -120,6 +120,7 @@ class Lobe:
     cosine: mpf
     weight: mpf
     tint: tuple
+    tint_bound: float
     mean_bound: tuple
     variance_bound: tuple  # relative
     cosine_bound: tuple
@@ -195,10 +196,10 @@ def expect_lobes(table, view, roughness=0.0, anisotropy=0.0, only=None):
             # Shares off by the level's error or by the filter's bits, between tables that differ.
             parts = np.array([[float(x) for x in table.fetch(number, row, column)] for _share, number in shares])
             off += (4 * width_error[0] + 2 * FILTER) * (parts.max(axis=0) - parts.min(axis=0))
-        half = np.array([HALF * abs(float(t)) + 2.0**-25 for t in texel])
-        lobes.append(
-            lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bound, tint_of(table, row, column))
-        )
+        # Where halves have fewer bits, they are 2^-24 apart.
+        half = np.array([HALF * abs(float(t)) + 2.0**-24 for t in texel])
+        tint = tint_of(table, row, column, row_off, column_off)
+        lobes.append(lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bound, tint))
     return o, lobes
 
 
@@ -210,11 +211,14 @@ def slope_of_column(cosine):
     return float((after - before) / step)
 
 
-def tint_of(table, row, column):
+def tint_of(table, row, column, row_off, column_off):
+    """The lobe's colour, and what each channel may be off by."""
     if not table.second:
-        return (mpf(1), mpf(1), mpf(1))
-    red, blue = table.fetch(0, row + table.rows // 2, column)[2:]
-    return (red, max(3 - red - blue, mpf(0)), blue)
+        return (mpf(1), mpf(1), mpf(1)), U
+    row += table.rows // 2
+    red, blue = table.fetch(0, row, column)[2:]
+    off = table.spread(0, row, column, row_off, column_off)[2:].sum()
+    return (red, max(3 - red - blue, mpf(0)), blue), float(off) + 6 * U
 
 
 def lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bound, tint):
@@ -244,7 +248,7 @@ def lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bou
                 error[3] + (2 * U * abs(float(texel[3])) if first else 0.0),
             )
         )
-    return Lobe(mean, variance, cosine, texel[3], tint, *zip(*bounds))
+    return Lobe(mean, variance, cosine, texel[3], *tint, *zip(*bounds))
 
 
 def expect_lobe(table, row):
@@ -260,12 +264,8 @@ def expect_lobe(table, row):
         Near((5,), (lobe.weight,), lobe.weight_bound[0] + 1e-12, "weight", lobe.weight_bound[1]),
     ]
     checks[1] = RelativeVariance(3, variance, *lobe.variance_bound)
-    if table.second:
-        span = 2.0
-        bound = span * (FILTER + 1e-3 * table.columns)
-        checks.append(Near((6, 7, 8), lobe.tint, bound, "tint", 4 * HALF * 3))
-    else:
-        checks.append(Near((6, 7, 8), lobe.tint, U, "tint"))
+    medium = 12 * HALF if table.second else 0.0
+    checks.append(Near((6, 7, 8), lobe.tint, 2 * lobe.tint_bound, "tint", medium))
     return checks
 
 

@@ -197,7 +197,7 @@ def expect_panorama(texels, as_sky, row):
     f, g = x - x0, y - y0
     rows = [min(max(r, 0), height - 1) for r in (y0, y0 + 1)]
     columns = [c % width for c in (x0, x0 + 1)]
-    if across == 0:
+    if across < mpf("1e-9") * d_length:
         # All azimuths are one there: anything between the texels next to the pole.
         row = texels[0 if d[1] > 0 else -1]
         ends = [[float(sound_texel(t[n])) for t in row] for n in range(3)]
