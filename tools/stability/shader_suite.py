@@ -10,6 +10,7 @@ import projects
 import shader_frames
 import shader_light
 import shader_material
+import shader_passes
 import shader_points
 import shader_pyramid
 import shader_tables
@@ -67,7 +68,7 @@ def make(quick, records):
         *lit,
         *worn,
     ]
-    passes, pyramids = shader_pyramid.passes(quick), shader_pyramid.pyramids(quick)
+    passes, pyramids = shader_passes.passes(quick), shader_pyramid.pyramids(quick)
     return textures | shader_pyramid.textures(pyramids, passes), probes, passes, pyramids
 
 
