@@ -175,6 +175,8 @@ def expect_lobes(table, view, roughness=0.0, anisotropy=0.0, only=None):
     # What the view is off by, in radians; near the normal the azimuth is off by that over the sine.
     view_bound = 40 * U / max(float(abs(o[2])), 0.5) if raw[2] > 0.1 else 40 * U * 100 ** (raw[2] <= 0)
     sine = float(mp.hypot(o[0], o[1]))
+    # The tangent of isotropic tables is a difference of numbers up to 1 over the sine.
+    skew = 8 * U / sine if table.isotropic and sine > 0.99e-5 else 0.0
     if not table.isotropic:
         place_bound += min(view_bound / max(sine, 1e-9), 1.0) * (table.places - 1)
     column = shader.column(o[2]) * (table.columns - 1)
@@ -199,7 +201,7 @@ def expect_lobes(table, view, roughness=0.0, anisotropy=0.0, only=None):
         # Where halves have fewer bits, they are 2^-24 apart.
         half = np.array([HALF * abs(float(t)) + 2.0**-24 for t in texel])
         tint = tint_of(table, row, column, row_off, column_off)
-        lobes.append(lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bound, tint))
+        lobes.append(lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bound, skew, tint))
     return o, lobes
 
 
@@ -221,7 +223,7 @@ def tint_of(table, row, column, row_off, column_off):
     return (red, max(3 - red - blue, mpf(0)), blue), float(off) + 6 * U
 
 
-def lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bound, tint):
+def lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bound, skew, tint):
     mean, variance, cosine = shader.lobe(texel, half_vectors, toward)
     a = [float(x) for x in alpha]
     x, y = float(texel[0]), float(texel[1])
@@ -237,7 +239,7 @@ def lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bou
     for error in (off, half):
         first = not bounds
         angle = turned(error) if first else (a[0] * error[0] + a[1] * error[1]) / length
-        extra = view_bound if first else 0.0
+        extra = view_bound + 2 * skew * math.hypot(a[0] * x, a[1] * y) / length if first else 0.0
         cosine_bound = angle + extra + (cosine_rounding if first else 0.0)
         exponent = math.log(2) * error[2] + cosine_bound / float(cosine)
         bounds.append(
