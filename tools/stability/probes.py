@@ -154,14 +154,30 @@ class Expectations:
         return self.known[key]
 
 
-def judge(probe, values, renderer, expectations, precision):
-    """The verdicts of a probe's cases."""
+def moved(probe, values, before):
+    """What rounding changes of a case: means in radians and in standard deviations of lobes that weigh something, light as a
+    share of the row's brightest channel."""
+    if probe.group == "shader look-up":
+        counts = before[:, 5] > 1e-3
+        off = np.linalg.norm(values[counts, :3] - before[counts, :3], axis=1)
+        if not off.size:
+            return {}
+        deviations = off / np.sqrt(before[counts, 3])
+        return {"moved_radians": float(off.max()), "moved_deviations": float(deviations.max())}
+    light = np.abs(values[:, :3] - before[:, :3]).max(axis=1) / np.maximum(before[:, :3].max(axis=1), 1e-6)
+    return {"moved_light": float(light.max())}
+
+
+def judge(probe, values, renderer, expectations, precision, before=None):
+    """The verdicts of a probe's cases; `before` are the values in single precision."""
     verdicts = []
     for title, first, last, about in probe.cases:
         medium = precision == "half"
         ending = f"in {renderer}" + (", mediump as halves" if medium else "")
         verdict = Verdict({"name": f"shader {title} {ending}"}, probe.group)
         verdict.result |= {"renderer": renderer, "precision": precision, **about}
+        if before is not None:
+            verdict.result |= moved(probe, values[first:last].astype(float), before[first:last].astype(float))
         if probe.patterns is not None:
             wrong = np.count_nonzero(values.view(np.uint32) != probe.patterns)
             verdict.error(float(wrong), 0.5, "wrong numbers")

@@ -40,8 +40,6 @@ SHADER_TITLES = {
     "shader pack": "Levels as bytes",
 }
 RENDERER_TITLES = {"mobile": "Mobile", "gl_compatibility": "Compatibility", "forward_plus": "Forward+"}
-# Where mediump is rounded as well.
-HALF_RENDERER = "mobile"
 # Of each group, BRDF and alpha (or function or renderer): how many cases, and the worst of each figure. --json has every case.
 COLUMNS = (
     "group",
@@ -139,17 +137,16 @@ def limits(results):
             f" ({half['name']})."
         )
     sentences.append(f"{capped} of {len(fits)} fits of eight lobes stop at the limit of iterations.")
-    for precision, title in (("single", "mediump computed with 32 bits"), ("half", "mediump rounded to halves")):
-        seen = [case for case in results if case.get("precision") == precision and case["renderer"] == HALF_RENDERER]
-        cells = []
-        for group, unit in (("shader look-up", "radians"), ("shader reflection", "radiance"), ("shader coat", "radiance")):
-            worst = max((case["largest"].get(unit, 0.0) for case in seen if case["group"] == group), default=None)
-            if worst is not None:
-                cells.append(f"{SHADER_TITLES[group].lower()} {number(worst)} {unit}")
-        widths = [case.get("standard_deviations", 0.0) for case in seen if case["group"] == "shader look-up"]
-        if cells:
-            cells.append(f"a lobe's mean {number(max(widths))} of its standard deviations")
-            sentences.append(f"Largest errors with {title}: {', '.join(cells)}.")
+    rounded = [case for case in results if case.get("precision") == "half"]
+    if rounded:
+        radians, deviations = (worst_of(rounded, "shader look-up", f"moved_{key}") for key in ("radians", "deviations"))
+        light = max(rounded, key=lambda case: case.get("moved_light", 0.0))
+        sentences.append(
+            "Rounding all that is `mediump` to half floats, as phones may, moves a lobe's mean by at most"
+            f" {number(radians['moved_radians'])} radians ({radians['name']}) or"
+            f" {number(deviations['moved_deviations'])} standard deviations ({deviations['name']}), and changes the light"
+            f" by at most {100 * light['moved_light']:.2g} % ({light['name']})."
+        )
     return sentences
 
 

@@ -86,7 +86,8 @@ def run(quick, records, progress):
             write_jobs(folder, textures, *here)
             run_engine(renderer, folder, out, project)
             for probe in chosen:
-                found += judge(probe, read_results(out, probe), renderer, expectations, precision)
+                before = read_results(folder / renderer, probe) if precision == "half" else None
+                found += judge(probe, read_results(out, probe), renderer, expectations, precision, before)
             for one in (*whole[0], *whole[1]):
                 found += one.judge(shader_pyramid.reader(out, one), renderer)
         except (EngineError, OSError) as error:

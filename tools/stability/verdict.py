@@ -48,8 +48,6 @@ class Verdict:
             "error": 0.0,
             "error_bound": 0.0,
             "unit": "",
-            # By unit, whatever its bound.
-            "largest": {},
             "iterations": record.get("iterations", 0),
         }
         for key in ("brdf", "alpha", "elevation", "azimuth", "lobes", "nodes_per_axis", "fit_error", "kappa", "method"):
@@ -76,7 +74,6 @@ class Verdict:
 
     def error(self, error, bound, unit):
         error = float(error)
-        self.result["largest"][unit] = max(self.result["largest"].get(unit, 0.0), error)
         if not error / bound <= self.result["error"] / (self.result["error_bound"] or math.inf):
             self.result.update(error=float(error), error_bound=float(bound), unit=unit)
         elif not self.result["unit"]:
