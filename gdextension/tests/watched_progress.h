@@ -15,9 +15,14 @@ inline double thread_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// What cancel() may take at most, in seconds, and what is asked of work between two checks here.
-// Real gaps are a tenth of it, so that a sanitizer or a busy machine does not matter.
+// What cancel() may take at most, in seconds, and what is asked of work between two checks here. A
+// quarter of it is the most there is, so that a busy machine does not matter. What is built for
+// sanitizers, or without optimisation, is slower by far.
+#ifdef NDEBUG
 constexpr double kPrompt = 0.2;
+#else
+constexpr double kPrompt = 5.0;
+#endif
 
 // Watches how long the threads that work under it go on without asking whether they should, and
 // cancels the work at one of the times that they ask.

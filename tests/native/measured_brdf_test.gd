@@ -13,12 +13,14 @@ func after() -> void:
 
 ## An isotropic RGL file: "tensor_file", its version, and for each field name, dimensions, type,
 ## offset and shape, as the reader's header says. Every warp is the identity.
-func _write_file(bad_values: int) -> void:
+func _write_file(bad_values: int, colour := Color.WHITE) -> void:
 	var names := ["theta_i", "phi_i", "ndf", "sigma", "vndf", "rgb", "jacobian"]
 	var shapes := [[3], [1], [2, 2], [2, 2], [1, 3, 2, 2], [1, 3, 3, 2, 2], [1]]
 	var rgb := PackedFloat32Array()
 	rgb.resize(36)
-	rgb.fill(4 * VALUE)
+	for n in rgb.size():
+		@warning_ignore("integer_division")
+		rgb[n] = 4 * VALUE * colour[n / 4 % 3]
 	for n in bad_values:
 		rgb[n] = [NAN, -1.0, INF][n % 3]
 	var ones := PackedFloat32Array([1, 1, 1, 1])
@@ -79,6 +81,22 @@ func test_bad_numbers_are_counted() -> void:
 	var table := LobeBaker.new().bake({"brdf": PATH, "lobes": 1, "views": [2, 1]})
 	assert_str(table.get("error", "")).is_empty()
 	assert_int(table.clamped).is_equal(5)
+
+
+func test_coloured_tables_do_not_depend_on_the_threads() -> void:
+	_write_file(0, Color(0.9, 0.5, 0.1))
+	for way: Dictionary in [{}, {"refine": true}]:
+		var recipe := {"brdf": PATH, "lobes": 2, "views": [3, 1]}.merged(way, true)
+		var one := LobeBaker.new().bake(recipe.merged({"threads": 1}))
+		assert_str(one.get("error", "")).is_empty()
+		var many := LobeBaker.new().bake(recipe.merged({"threads": 8}))
+		assert_bool(many.data == one.data).is_true()
+		var table := LobeTable.from_baked(one)
+		assert_str(table.get_problem()).is_empty()
+		# Two rows of texels for each lobe: the table is coloured.
+		assert_int(one.height).is_equal(2 * one.lobes)
+		var view := table.get_view(1, 0)
+		assert_float(table.directional_albedo(view)).is_equal_approx(TAU * VALUE * 0.5, 5e-3)
 
 
 func test_files_are_refused_by_name_and_reason() -> void:
