@@ -238,7 +238,9 @@ void check_steps(long checks, double from, const Work& work) {
   CHECK(progress.longest_gap() < kPrompt);
 }
 
-TEST_CASE("No step of the largest tables is so long that a cancelled bake would be waited for") {
+// What is slower than users have it says nothing of them.
+TEST_CASE("No step of the largest tables is so long that a cancelled bake would be waited for" *
+          doctest::skip(!testing::kOptimised)) {
   for (const Recipe& small : materials().recipes()) {
     const bool is_file = small.brdf != "ward_bounded";
     for (const Way way : {Way::plain, Way::refined, Way::counted}) {
@@ -267,7 +269,8 @@ TEST_CASE("No step of the largest tables is so long that a cancelled bake would 
   }
 }
 
-TEST_CASE("No step of the largest sets is so long that a cancelled bake would be waited for") {
+TEST_CASE("No step of the largest sets is so long that a cancelled bake would be waited for" *
+          doctest::skip(!testing::kOptimised)) {
   SetRecipe recipe;
   recipe.widths = {0.1, 0.2};
   recipe.lobes = kMaxLobes;

@@ -19,10 +19,11 @@ inline double thread_seconds() {
 // quarter of it is the most there is, so that a busy machine does not matter. What is built for
 // sanitizers, or without optimisation, is slower by far.
 #ifdef NDEBUG
-constexpr double kPrompt = 0.2;
+constexpr bool kOptimised = true;
 #else
-constexpr double kPrompt = 5.0;
+constexpr bool kOptimised = false;
 #endif
+constexpr double kPrompt = kOptimised ? 0.2 : 5.0;
 
 // Watches how long the threads that work under it go on without asking whether they should, and
 // cancels the work at one of the times that they ask.
