@@ -29,7 +29,7 @@ expect() {
   fi
 }
 
-# Programs in apt's place: a folder of $mirror is a suite, with Sources and for each version the archive.
+# Programs in apt's place: a folder of $mirror is a suite, with Packages, Sources and for each version the archive.
 mirror=$work/mirror
 mkdir "$work/bin"
 cat >"$work/bin/apt-get" <<'FAKE'
@@ -45,7 +45,11 @@ esac
 FAKE
 cat >"$work/bin/apt-cache" <<'FAKE'
 #!/usr/bin/env bash
-[[ $1 == showsrc ]] && cat "$FAKE_MIRROR/$(awk '{ print $4 }' "$(dirname "$APT_CONFIG")/sources.list")/Sources"
+suite=$FAKE_MIRROR/$(awk '{ print $4 }' "$(dirname "$APT_CONFIG")/sources.list")
+case $1 in
+  showsrc) cat "$suite/Sources" ;;
+  madison) cat "$suite/Packages" ;;
+esac
 FAKE
 chmod +x "$work/bin"/apt-*
 
@@ -55,16 +59,21 @@ publish() {
   mkdir -p "$folder"
   printf '%s' "$3" >"$folder/lamp_1.orig.tar.gz"
   checksum=${4:-$(sha256sum "$folder/lamp_1.orig.tar.gz" | cut -d ' ' -f 1)}
-  printf 'Package: lamp\nBinary: lamp, lamp-dev\nVersion: %s\nFormat: 3.0 (quilt)\nChecksums-Sha256:\n %s 7 lamp_1.orig.tar.gz\n\n' \
+  printf 'Package: lamp\nBinary: lamp, lamp-dev\nVersion: %s\nChecksums-Sha256:\n %s 7 lamp_1.orig.tar.gz\n\n' \
     "$2" "$checksum" >>"$mirror/$1/Sources"
 }
 wanted=$(printf 'wanted' | sha256sum | cut -d ' ' -f 1)
+
+# use_fakes: what follows in this shell gets Debian from $mirror.
+use_fakes() {
+  export PATH=$work/bin:$PATH FAKE_MIRROR=$mirror LOBELIGHT_DEBIAN_MIRROR=http://mirror.invalid/debian
+}
 
 # fetch SUITE…: as the set-up does; the archive then lies in $work/got.
 fetch() {
   rm -rf "$work/got"
   mkdir "$work/got"
-  export PATH=$work/bin:$PATH FAKE_MIRROR=$mirror LOBELIGHT_DEBIAN_MIRROR=http://mirror.invalid/debian
+  use_fakes
   fetch_source "$work/got" lamp lamp_1.orig.tar.gz "$wanted" "$@"
 }
 fetched() {
@@ -87,6 +96,34 @@ expect "an archive of another suite" fetched newer moved
 expect "a suite that is gone is passed over" fetched gone old
 expect "an archive that is not what is said of it is passed over" fetched liar old
 expect "no suite has it: a sentence, and nothing is left" not_fetched gone newer liar
+
+# offer SUITE VERSION: the program "lantern" in that version, as apt-cache madison lists it.
+offer() {
+  mkdir -p "$mirror/$1"
+  printf '   lantern | %s | http://mirror.invalid/debian %s/main amd64 Packages\n' "$2" "$1" >>"$mirror/$1/Packages"
+}
+# suite_with WANTED SUITE…: version 4.6 of the program is taken from the suite WANTED.
+suite_with() {
+  local wanted=$1
+  shift
+  use_fakes
+  use_suite_with "$work/apt" lantern 4.6 "$@" && [[ $(<"$work/apt/suite") == "$wanted" ]] \
+    && grep -q " $wanted main$" "$work/apt/sources.list"
+}
+no_suite() {
+  local said
+  use_fakes
+  said=$(use_suite_with "$work/apt" lantern 4.6 "$@") && return 1
+  grep -qxF "No suite of $* has lantern 4.6." <<<"$said"
+}
+offer testing 4.6.3+ds-2
+offer later 4.7.1+ds-1
+offer later 4.60-1
+offer unstable 4.7.1+ds-2
+offer unstable 1:4.6.5+ds-1
+expect "a program of the first suite" suite_with testing testing unstable
+expect "a suite that has moved on is passed over" suite_with unstable later unstable
+expect "no suite has the version: a sentence" no_suite later gone
 
 # configure FOLDER OPTION…: CMake alone, without ./dev.
 configure() {

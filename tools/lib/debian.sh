@@ -63,3 +63,22 @@ CONFIG
   } >"$directory/apt.conf"
   export APT_CONFIG=$directory/apt.conf
 }
+
+# use_suite_with DIRECTORY PACKAGE VERSION SUITE…: private_apt, with fresh lists, for the first SUITE that has PACKAGE in a
+# version that begins with VERSION; DIRECTORY/suite names it. Fails, saying so, where none has.
+use_suite_with() {
+  local directory=$1 package=$2 version=$3 suite
+  shift 3
+  for suite in "$@"; do
+    rm -rf "$directory"
+    private_apt "$directory" "deb $suite"
+    apt-get update || continue
+    # Not grep -q, which would stop apt-cache in the middle.
+    if apt-cache madison "$package" | grep -E "^ *$package *\| *([0-9]+:)?${version//./\\.}[.~+-]"; then
+      echo "$suite" >"$directory/suite"
+      return
+    fi
+  done
+  echo "No suite of $* has $package $version."
+  return 1
+}

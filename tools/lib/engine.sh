@@ -2,6 +2,9 @@
 # The engine: which Godot is used, and how it is run headless and with a picture.
 
 GODOT_WANTED=4.6
+# Where Debian may have it, or still have it.
+# shellcheck disable=SC2034 # used by tools/setup/engine.sh
+GODOT_SUITES=(forky sid trixie-backports)
 
 # godot_version PROGRAM: prints the version that PROGRAM reports, or nothing. A path that cannot run gives nothing.
 godot_version() {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Godot from Debian forky, unpacked in the cache and made to run on this system: engine.sh
+# Godot from Debian, unpacked in the cache and made to run on this system: engine.sh
 #
 # The packages need a newer C library than most systems have. They are not installed: the whole closure, C library
 # included, is unpacked, and the program's loader and library path are patched to it. So no root is needed, and what
@@ -21,7 +21,6 @@ if other=$(command -v godot); then
   say "$other is version $(godot_version "$other"), not $GODOT_WANTED: Debian's package is used."
 fi
 rm -rf "$work"
-private_apt "$work/apt" "deb forky"
 
 # Software drivers for both graphics interfaces: lavapipe (Vulkan) and llvmpipe (OpenGL).
 packages=("godot=$GODOT_WANTED*" mesa-vulkan-drivers libgl1-mesa-dri libglx-mesa0 libegl-mesa0 libegl1 libgl1
@@ -84,7 +83,10 @@ WRAPPER
   chmod +x "$work/godot"
 }
 
-step --advice "$advice" "Reading the package list of Debian forky" apt-get update
+step --advice "$advice" "Looking for Godot $GODOT_WANTED in Debian" \
+  use_suite_with "$work/apt" godot "$GODOT_WANTED" "${GODOT_SUITES[@]}"
+export APT_CONFIG=$work/apt/apt.conf
+cp "$work/apt/suite" "$work/suite"
 step --advice "$advice" "Downloading Godot $GODOT_WANTED and what it needs (170 MB)" \
   apt-get install --yes --download-only "${packages[@]}"
 step --advice "$advice" "Unpacking Godot" unpack

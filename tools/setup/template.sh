@@ -22,9 +22,9 @@ work=$target.new
 rm -rf "$work"
 mkdir -p "$work"
 
-# use_suite NAME [ARCHITECTURE]: a private apt below $work; sets APT_CACHE.
+# use_suite NAME [ARCHITECTURE]: a private apt below $work for the suite that the engine is from; sets APT_CACHE.
 use_suite() {
-  private_apt "$work/apt-$1" "deb forky"
+  private_apt "$work/apt-$1" "deb $(<"$CACHE/engine/suite")"
   [[ -z ${2:-} ]] || echo "APT::Architecture \"$2\"; APT::Architectures { \"$2\"; };" >>"$APT_CONFIG"
   APT_CACHE=$work/apt-$1/cache/archives
 }
