@@ -13,7 +13,8 @@ usage: ./dev package [--all | --no-library] [--out X.zip] [--json FILE]
 
 The package holds addons/lobelight as a project needs it: run time, editor scripts, ready tables, icons and the library
 for this machine, or those for every desktop, with the licences of what is linked into them. One compiler, Zig's, which
-is fetched, builds all of them: those for Linux run from glibc 2.28 on. Equal sources give equal bytes.
+is fetched, builds all of them: those for Linux run from glibc 2.28 on. The tables that they bake differ by roundings from
+those of the library that ./dev builds with this machine's compiler. Equal sources give equal bytes.
 USAGE
 }
 
