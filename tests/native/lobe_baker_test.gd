@@ -325,7 +325,7 @@ func test_a_bake_that_would_not_fit_is_refused_at_once() -> void:
 
 
 func test_long_values_are_cut_in_messages() -> void:
-	var message: String = LobeBaker.new().bake({"brdf": ["ä\n".repeat(500)]}).error
+	var message: String = LobeBaker.new().bake({"brdf": ["ä\n\u001b\r".repeat(500)]}).error
 	assert_int(message.length()).is_less(200)
 	_assert_one_sentence(message)
 
@@ -357,5 +357,6 @@ func _weight_sum(table: Dictionary, t: int) -> float:
 
 func _assert_one_sentence(message: String) -> void:
 	assert_str(message).ends_with(".")
-	assert_str(message).not_contains("\n")
+	for control: String in ["\n", "\r", "\u001b"]:
+		assert_str(message).not_contains(control)
 	assert_str(message).not_contains(". ")

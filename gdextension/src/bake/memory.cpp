@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/one_line.h"
 #include "base/parallel.h"
 #include "brdf/measured.h"
 #include "fit/memory.h"
@@ -120,7 +121,7 @@ void check_memory(const TableRequest& request) {
   TableRequest without = request;
   if (without.target) without.target->environments.clear();
   if (is_measured_file(request.recipe.brdf)) {
-    check(memory_bound(without), "brdf is \"" + request.recipe.brdf + "\", a file of " +
+    check(memory_bound(without), "brdf is \"" + one_line(request.recipe.brdf) + "\", a file of " +
                                      gibibytes(file_bytes(request.recipe.brdf)));
   }
   if (!request.target) return;
@@ -146,7 +147,7 @@ void check_memory(const SphereRequest& request, int environment_width, int envir
         environment_width > 0 ? "env is a panorama of " + std::to_string(environment_width) +
                                     " x " + std::to_string(environment_height) + " texels"
                               : "size is " + std::to_string(request.options.size) +
-                                    " and brdf is \"" + request.brdf + "\"");
+                                    " and brdf is \"" + one_line(request.brdf) + "\"");
 }
 
 }  // namespace lobelight

@@ -27,7 +27,8 @@ std::string described(const Variant& value) {
   constexpr std::size_t kLongest = 60;
   if (value.get_type() == Variant::NIL) return "null";
   std::string shown = to_std(value.stringify());
-  std::replace(shown.begin(), shown.end(), '\n', ' ');
+  const auto is_control = [](unsigned char byte) { return byte < ' ' || byte == 0x7f; };
+  std::replace_if(shown.begin(), shown.end(), is_control, ' ');
   if (shown.size() > kLongest) {
     // Not in the middle of a UTF-8 sequence.
     std::size_t end = kLongest;
