@@ -75,7 +75,9 @@ export GALLIVM_PERF=${GALLIVM_PERF:-nopt}
 export LOBELIGHT_DRAFT_TABLES=yes
 
 rm -rf "$RESULTS"
-mkdir -p "$RESULTS"
+mkdir -p "$RESULTS/user"
+# The engine's user folders: at what it finds there of shaders that another driver has compiled, it would warn.
+export XDG_DATA_HOME=$RESULTS/user
 if [[ -n $sanitizer ]]; then
   prepare_sanitized "${groups[@]}"
   for group in "${groups[@]}"; do

@@ -352,6 +352,9 @@ def check(checks, rows, pictures):
 def measure(work, progress):
     """The rows of the scenes, those of TARGETS, and of each scene its pictures."""
     project = work / "project"
+    # Of its own, so that the engine finds no shaders there that another driver compiled, and warns.
+    shutil.rmtree(work / "user", ignore_errors=True)
+    os.environ["XDG_DATA_HOME"] = str(work / "user")
     progress("importing")
     make_project(project)
     progress("everything of the addon")
