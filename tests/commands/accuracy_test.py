@@ -82,7 +82,7 @@ def compare_by_command(environment, alpha, renderer, folder):
     """The same of one case by ./dev compare, with times."""
     command = [ROOT / "dev", "compare", "--env", ROOT / environment, "--brdf", "ward", "--alpha", alpha]
     command += ["--methods", ",".join(methods_of(environment, alpha)), "--size", str(SIZE), "--renderer", renderer]
-    command += ["--timing-rounds", TIMING_ROUNDS, "--out", folder]
+    command += ["--timing-rounds", TIMING_ROUNDS, "--timing-size", str(SIZE), "--out", folder]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     if done.returncode:
         raise CompareError(done.stdout.decode()[-600:])
