@@ -9,10 +9,8 @@ THREADED='*base_*,*fit_table_fitter*,*fit_roughness*,*fit_refinement*,*fit_produ
 # prepare_sanitized GROUP…: what these need besides what is built for them.
 prepare_sanitized() {
   need_python
-  if is_one_of native "$@"; then
-    need_interface
-    need_gdunit
-  fi
+  need_interface
+  if is_one_of native "$@"; then need_gdunit; fi
 }
 
 # need_sanitized KIND TARGET…: builds them under the sanitizer in build/cmake-KIND.
@@ -39,8 +37,9 @@ build_sanitized() {
 # The C++ tests. A report ends the test that it is about, which then counts as failed. Under the thread sanitizer, which
 # is slow, only those of files whose subject has threads.
 sanitize_cpp() {
-  local kind=$1
-  need_sanitized "$kind" lobelight_tests
+  local kind=$1 targets=(lobelight_tests)
+  [[ $kind == thread ]] || targets+=(lobelight_binding_tests)
+  need_sanitized "$kind" "${targets[@]}"
   rm -f "$RESULTS/cpp-$kind.xml"
   if [[ $kind == thread ]]; then
     run_logged "cpp-$kind" in_time "$ROOT/build/cmake-$kind/lobelight_tests" -d "-sf=$THREADED" \
@@ -76,7 +75,8 @@ make_native_project() {
   rm -rf "$project"
   mkdir -p "$project/addons" "$project/tests" "$project/.godot" "$project/user"
   touch "$project/user/.gdignore"
-  for part in addons/lobelight addons/gdUnit4 tests/native tests/data; do
+  # The suites ask what comparisons say of files, too.
+  for part in addons/lobelight addons/gdUnit4 bake tests/native tests/data; do
     cp -r "$ROOT/$part" "$project/$part"
   done
   rm -rf "$project/addons/lobelight/bin"
