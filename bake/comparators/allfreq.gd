@@ -10,7 +10,7 @@ extends ComparisonMethod
 ## non-linear optimisation.
 
 const ComparisonSphere := preload("comparison_sphere.gd")
-const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
+const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 const Microfacet := preload("microfacet.gd")
 
 var lobes: int

@@ -1,7 +1,7 @@
 extends RefCounted
 ## The sphere of [SphereImpostor] under another method's shader.
 
-const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
+const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 
 
 ## A quad whose material is the shader include [param path] of this folder, which has a function

@@ -3,8 +3,8 @@ extends RefCounted
 ## What the methods of one comparison share: the scene tree, the surroundings in the forms that the
 ## methods need, and the options of the command.
 
-const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
-const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
+const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
+const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
 const DualParaboloidMap := preload("dual_paraboloid_map.gd")
 const PrefilteredMap := preload("prefiltered_map.gd")
 const FILTERS: Dictionary[String, LobeEnvironment3D.Filter] = {

@@ -4,7 +4,7 @@ extends ComparisonMethod
 ## on the project's own pyramid.
 
 const ComparisonSphere := preload("comparison_sphere.gd")
-const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
+const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 const Microfacet := preload("microfacet.gd")
 
 var samples: int

@@ -3,7 +3,7 @@ extends ComparisonMethod
 ## the project's own pyramid, without a table.
 
 const ComparisonSphere := preload("comparison_sphere.gd")
-const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
+const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 const LineLobes := preload("line_lobes.gd")
 const Microfacet := preload("microfacet.gd")
 ## Along the longer axis.

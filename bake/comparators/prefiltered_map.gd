@@ -2,7 +2,7 @@ extends RefCounted
 ## A cube map whose levels are blurred as surfaces of growing width reflect, see prefilter.gdshader;
 ## made on the GPU in any renderer. It is another one for each BRDF.
 
-const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
+const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 const PrefilterShader := preload("prefilter.gdshader")
 const Microfacet := preload("microfacet.gd")
 const _COLUMNS := 3

@@ -12,7 +12,7 @@ extends ComparisonMethod
 ## Compatibility the sky's linear texels are taken for sRGB.
 
 const FRAGMENT_PATH := "res://bake/comparators/stock.gdshaderinc"
-const Widths := preload("res://addons/lobelight/runtime/widths.gd")
+const Widths := preload("res://addons/lobelight/runtime/table/widths.gd")
 # The engine's directions to the viewer are off by the sphere's radius over this.
 const _DISTANCE := 1000.0
 ## Of the engine's map; its default is 256.

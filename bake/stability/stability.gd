@@ -6,9 +6,9 @@ extends SceneTree
 ## NAME.bin, 32-bit floats as the shader has them, row by row; a pass' pixels NAME.bin, half floats
 ## or bytes; each pyramid's levels NAME.LEVEL.bin, atlases of half floats.
 
-const CanvasPass := preload("res://addons/lobelight/runtime/canvas_pass.gd")
-const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
-const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
+const CanvasPass := preload("res://addons/lobelight/runtime/pyramid/canvas_pass.gd")
+const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
+const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
 const HalvesShader := preload("res://bake/stability/halves.gdshader")
 
 const OPTIONS: PackedStringArray = ["jobs", "out"]
@@ -135,7 +135,7 @@ func _make_light(values: Dictionary) -> EnvironmentLight:
 
 # One of the pyramid's shaders by itself.
 func _run_pass(values: Dictionary) -> void:
-	var path := "%saddons/lobelight/runtime/shaders/%s.gdshader"
+	var path := "%saddons/lobelight/runtime/%s.gdshader"
 	var shader: Shader = load(path % [values["root"], values["shader"]])
 	var parameters: Dictionary[StringName, Variant] = {}
 	var used: Dictionary = values["textures"]
@@ -158,7 +158,7 @@ func _run_pass(values: Dictionary) -> void:
 
 func _run_pyramid(values: Dictionary) -> void:
 	# Untyped: the script may be a copy.
-	var script: GDScript = load(values["root"] + "addons/lobelight/runtime/pyramid.gd")
+	var script: GDScript = load(values["root"] + "addons/lobelight/runtime/pyramid/pyramid.gd")
 	var pyramid: Object = script.new()
 	var size: int = values["size"]
 	var filter: int = values["filter"]

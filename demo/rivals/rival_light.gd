@@ -1,7 +1,7 @@
 extends RefCounted
 ## The surroundings as the other methods take them: a cube map with mip levels.
 
-const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
+const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
 
 var cubemap: TextureLayered
 ## Texels along the side of a face.

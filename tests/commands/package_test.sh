@@ -64,7 +64,7 @@ same_bytes() {
 only_the_addon() {
   local names
   names=$("$PYTHON" -c 'import sys, zipfile; print(*zipfile.ZipFile(sys.argv[1]).namelist(), sep="\n")' "$package")
-  grep -qx 'addons/lobelight/runtime/lobe_material_3d.gd' <<<"$names" \
+  grep -qx 'addons/lobelight/runtime/material/lobe_material_3d.gd' <<<"$names" \
     && grep -qx 'addons/lobelight/bin/LICENCES.txt' <<<"$names" \
     && ! grep -vE '^addons/lobelight/(runtime|editor|tables|icons|bin)/|^addons/lobelight/[^/]+$' <<<"$names" \
     && ! grep -E '_test\.gd|doc_classes|\.o$' <<<"$names"
@@ -74,7 +74,7 @@ only_the_addon() {
 archive_is_an_addon() {
   local names
   names=$(git -C "$ROOT" archive --worktree-attributes HEAD | tar --list) \
-    && grep -qx 'addons/lobelight/runtime/lobe_material_3d.gd' <<<"$names" \
+    && grep -qx 'addons/lobelight/runtime/material/lobe_material_3d.gd' <<<"$names" \
     && ! grep -vE '^addons/$|^addons/lobelight/' <<<"$names" \
     && ! grep -E '\.gdextension|doc_classes|/bin/' <<<"$names"
 }

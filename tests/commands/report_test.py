@@ -235,7 +235,7 @@ class MeasurementsTest(unittest.TestCase):
     def test_only_what_draws_makes_figures_stale(self):
         """Work on the editor and on other commands keeps what was measured; a shader, a table, a method does not."""
         files = ("addons/lobelight/runtime/shaders/lobe.gdshaderinc", "addons/lobelight/tables/ggx.res", "bake/comparison.gd")
-        files += ("bake/comparators/fis.gd", "gdextension/src/fit/em.cpp", "addons/lobelight/runtime/pyramid.gd")
+        files += ("bake/comparators/fis.gd", "gdextension/src/fit/em.cpp", "addons/lobelight/runtime/pyramid/pyramid.gd")
         kept = ("addons/lobelight/editor/plugin.gd", "addons/lobelight/editor/export/diet.gd", "addons/lobelight/plugin.cfg")
         kept += ("bake/bake.gd", "bake/bake_demo.gd", "bake/recipes/brushed_ward.json", "demo/demo.gd")
         kept += ("addons/lobelight/doc_classes/LobeTable.xml",)

@@ -5,7 +5,7 @@ const Diet := preload("res://addons/lobelight/editor/export/diet.gd")
 const EnvironmentFit := preload("res://addons/lobelight/editor/export/environment_fit.gd")
 const ProjectFiles := preload("res://addons/lobelight/editor/export/project_files.gd")
 const SetReach := preload("res://addons/lobelight/editor/export/set_reach.gd")
-const Widths := preload("res://addons/lobelight/runtime/widths.gd")
+const Widths := preload("res://addons/lobelight/runtime/table/widths.gd")
 const GGX := "res://addons/lobelight/tables/ggx_8.res"
 
 

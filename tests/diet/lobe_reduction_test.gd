@@ -6,7 +6,7 @@ const Diet := preload("res://addons/lobelight/editor/export/diet.gd")
 const LobeReduction := preload("res://addons/lobelight/editor/export/lobe_reduction.gd")
 const ProjectFiles := preload("res://addons/lobelight/editor/export/project_files.gd")
 const ReducedTable := preload("res://addons/lobelight/editor/export/reduced_table.gd")
-const TableChoice := preload("res://addons/lobelight/runtime/table_choice.gd")
+const TableChoice := preload("res://addons/lobelight/runtime/material/table_choice.gd")
 
 const SCENES := "res://tests/diet/scenes/"
 const GGX := "res://addons/lobelight/tables/ggx_8.res"

@@ -1,8 +1,8 @@
 extends GdUnitTestSuite
 ## The cube map that takes a pyramid without leaving the GPU says when it could not.
 
-const CanvasPass := preload("res://addons/lobelight/runtime/canvas_pass.gd")
-const GpuCube := preload("res://addons/lobelight/runtime/gpu_cube.gd")
+const CanvasPass := preload("res://addons/lobelight/runtime/pyramid/canvas_pass.gd")
+const GpuCube := preload("res://addons/lobelight/runtime/rendering_device/gpu_cube.gd")
 const SIZE := 4
 
 

@@ -1,7 +1,7 @@
 extends GdUnitTestSuite
 ## LobeMaterial3D draws what its table says, on any mesh and with any camera.
 
-const LightRegistry := preload("res://addons/lobelight/runtime/light_registry.gd")
+const LightRegistry := preload("res://addons/lobelight/runtime/light/light_registry.gd")
 const Kit := preload("support/render_kit.gd")
 const SIDE := 48
 const MIDDLE := 24

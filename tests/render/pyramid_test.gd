@@ -2,8 +2,8 @@ extends GdUnitTestSuite
 ## The pyramid of LobeEnvironment3D, on environments whose every level is known.
 
 const Kit := preload("support/render_kit.gd")
-const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
-const PyramidChain := preload("res://addons/lobelight/runtime/pyramid_chain.gd")
+const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
+const PyramidChain := preload("res://addons/lobelight/runtime/pyramid/pyramid_chain.gd")
 
 const FILTERS := [
 	[Pyramid.Filter.BOX],

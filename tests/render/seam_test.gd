@@ -3,7 +3,7 @@ extends GdUnitTestSuite
 ## constant, and a radiance that is linear in the direction stays linear, with less slope.
 
 const Kit := preload("support/render_kit.gd")
-const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
+const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
 const SkyKit := preload("support/sky_kit.gd")
 const SIDE := 64
 const SIZE := 32

@@ -1,7 +1,7 @@
 extends GdUnitTestSuite
 ## The level of a lobe as EnvironmentLight has the shader compute it, against the exact formula.
 
-const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
+const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 
 # Texels along a face, c and b of shaders/environment.gdshaderinc, whether levels blur alike in all
 # directions, and how much of a level the shader may be off.

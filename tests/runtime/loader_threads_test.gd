@@ -1,7 +1,7 @@
 extends GdUnitTestSuite
 ## What several loader threads share: each has the same object, and none keeps the others waiting.
 
-const TableChoice := preload("res://addons/lobelight/runtime/table_choice.gd")
+const TableChoice := preload("res://addons/lobelight/runtime/material/table_choice.gd")
 const THREADS := 4
 const TABLES := 2000
 

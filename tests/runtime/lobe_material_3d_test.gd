@@ -17,8 +17,8 @@ const FEATURES: PackedStringArray = [
 	"UV_TRANSFORM",
 	"VERTEX_COLOUR",
 ]
-const EnvironmentLight := preload("res://addons/lobelight/runtime/environment_light.gd")
-const LightRegistry := preload("res://addons/lobelight/runtime/light_registry.gd")
+const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
+const LightRegistry := preload("res://addons/lobelight/runtime/light/light_registry.gd")
 
 
 func _make_table(lobes: int, azimuths: int) -> LobeTable:

@@ -1,7 +1,7 @@
 extends GdUnitTestSuite
 ## LobeTableSet: its layout, the interpolation over the widths, and its files, without the library.
 
-const WidthsTexture := preload("res://addons/lobelight/runtime/widths_texture.gd")
+const WidthsTexture := preload("res://addons/lobelight/runtime/table/widths_texture.gd")
 
 const WIDTHS: Array[float] = [0.1, 0.2, 0.4]
 const VIEWS := Vector2i(3, 4)

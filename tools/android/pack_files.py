@@ -17,9 +17,9 @@ import zipfile
 
 ADDON = "addons/lobelight"
 RUN_TIME = [
-    f"{ADDON}/runtime/lobe_material_3d.gd",
-    f"{ADDON}/runtime/lobe_environment_3d.gd",
-    f"{ADDON}/runtime/lobe_table_set.gd",
+    f"{ADDON}/runtime/material/lobe_material_3d.gd",
+    f"{ADDON}/runtime/light/lobe_environment_3d.gd",
+    f"{ADDON}/runtime/table/lobe_table_set.gd",
     f"{ADDON}/runtime/shaders/material.gdshaderinc",
     f"{ADDON}/runtime/shaders/pyramid_round.gdshader",
     f"{ADDON}/tables/ggx_8.res",

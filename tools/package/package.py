@@ -92,7 +92,7 @@ def addon_files():
     altogether."""
     folder = ROOT / ADDON
     files = {path.relative_to(folder).as_posix() for pattern in PATTERNS for path in folder.glob(pattern)}
-    for needed in ["plugin.cfg", "LICENSE", "runtime/lobe_material_3d.gd", "editor/plugin.gd", "tables/ggx_8.res"]:
+    for needed in ["plugin.cfg", "LICENSE", "runtime/material/lobe_material_3d.gd", "editor/plugin.gd", "tables/ggx_8.res"]:
         if needed not in files:
             raise PackageError(f"{ADDON / needed} is missing")
     return files

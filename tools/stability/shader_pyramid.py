@@ -14,7 +14,7 @@ from probes import ATAN, HALF, U, EngineError, Texture
 from shader_values import face_of
 from verdict import Verdict
 
-# As runtime/pyramid.gd has them, and c of environment.gdshaderinc.
+# As runtime/pyramid/pyramid.gd has them, and c of environment.gdshaderinc.
 FILTERS = {"box": 0, "binomial": 1, "gaussian": 2, "disc": 3}
 LEVEL_VARIANCES = {"box": 1 / 12, "binomial": 1 / 4, "gaussian": 5 / 6, "disc": 5 / 6}
 # The tent of the sampler, in texels.

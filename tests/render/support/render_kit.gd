@@ -1,7 +1,7 @@
 extends RefCounted
 ## Environments, tables and measurements for the rendered suites.
 
-const Pyramid := preload("res://addons/lobelight/runtime/pyramid.gd")
+const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
 
 
 ## The direction that a panorama shows at (u, v): u = fract(atan2(x, -z) / 2 pi), v = acos(y) / pi.

@@ -2,7 +2,7 @@ extends SceneTree
 ## Ends while the registry of lights still has a material that nobody took back, with a lambda whose
 ## object it keeps; exit_test.gd looks at how.
 
-const LightRegistry := preload("res://addons/lobelight/runtime/light_registry.gd")
+const LightRegistry := preload("res://addons/lobelight/runtime/light/light_registry.gd")
 
 
 class Owner:

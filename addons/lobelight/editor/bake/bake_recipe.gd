@@ -3,7 +3,7 @@ extends RefCounted
 ## What a [LobeTable] is baked from, as the inspector asks for it. It is kept in the table's
 ## metadata, so that the table can be baked again.
 
-const Widths := preload("../../runtime/widths.gd")
+const Widths := preload("../../runtime/table/widths.gd")
 
 ## Metadata with an underscore are the editor's own and are not listed in the inspector.
 const META := &"_lobelight_recipe"

@@ -9,7 +9,7 @@ extends RefCounted
 ## A table has log2(κ (o·h)) and V = (o·h) / κ' with κ' = 2^that. The view is taken to be up to 75
 ## degrees off the normal.
 
-const Pyramid := preload("../../runtime/pyramid.gd")
+const Pyramid := preload("../../runtime/pyramid/pyramid.gd")
 const SetReach := preload("set_reach.gd")
 
 const LEAST_COSINE := 0.25

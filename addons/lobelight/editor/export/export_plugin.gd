@@ -13,11 +13,11 @@ const Diet := preload("diet.gd")
 const ExtensionList := preload("extension_list.gd")
 const ProjectFiles := preload("project_files.gd")
 const Reach := preload("reach.gd")
-const TableChoice := preload("../../runtime/table_choice.gd")
+const TableChoice := preload("../../runtime/material/table_choice.gd")
 
 const ADDON := "res://addons/lobelight/"
 const EDITOR_ONLY: PackedStringArray = ["editor/", "bin/", "doc_classes/", "icons/"]
-const TABLE_CHOICE := "res://addons/lobelight/runtime/table_choice.gd"
+const TABLE_CHOICE := "res://addons/lobelight/runtime/material/table_choice.gd"
 const CUT_TABLES := "lobelight/cut_tables"
 const FIT_ENVIRONMENTS := "lobelight/fit_environments"
 const TARGET_PSNR := "lobelight/target_psnr"

@@ -5,8 +5,8 @@ extends RefCounted
 ## A feature that a script so much as names counts as reached, and so do those in the metadata
 ## [code]lobelight_features[/code] of a scene's root, an array of their names.
 
-const LobeEnvironment := preload("../../runtime/lobe_environment_3d.gd")
-const MaterialShader := preload("../../runtime/material_shader.gd")
+const LobeEnvironment := preload("../../runtime/light/lobe_environment_3d.gd")
+const MaterialShader := preload("../../runtime/material/material_shader.gd")
 const OnDemand := preload("../../runtime/on_demand.gd")
 
 const DECLARATION := "metadata/lobelight_features"

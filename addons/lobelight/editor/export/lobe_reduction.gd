@@ -14,8 +14,8 @@ const MeasuredImporter := preload("../import/measured_importer.gd")
 const Recipe := preload("../bake/bake_recipe.gd")
 const ProjectFiles := preload("project_files.gd")
 const ReducedTable := preload("reduced_table.gd")
-const TableChoice := preload("../../runtime/table_choice.gd")
-const Widths := preload("../../runtime/widths.gd")
+const TableChoice := preload("../../runtime/material/table_choice.gd")
+const Widths := preload("../../runtime/table/widths.gd")
 
 ## Metadata of a material: true says that no script or animation changes its widths.
 const FIXED := &"lobelight_fixed"

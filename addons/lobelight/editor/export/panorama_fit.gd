@@ -4,12 +4,12 @@ extends RefCounted
 ##
 ## A cube map of S texels a side has 4 S of them around, so that 4 S texels are all that it can show
 ## of a panorama. Finer ones are halved, each texel the mean of four, while that many are left: at
-## least twice S, so that level 0 stays as sharp as it is (runtime/pyramid.gd, base_variance). Only
+## least twice S, so that level 0 stays as sharp as it is (runtime/pyramid/pyramid.gd, base_variance). Only
 ## panoramas that are seen through the cube map alone: what else shows one may need all of it.
 
 const EnvironmentFit := preload("environment_fit.gd")
 const Features := preload("features.gd")
-const Pyramid := preload("../../runtime/pyramid.gd")
+const Pyramid := preload("../../runtime/pyramid/pyramid.gd")
 const ProjectFiles := preload("project_files.gd")
 
 ## Along the panorama, of each texel along a cube map's side.

@@ -12,8 +12,8 @@ const Features := preload("features.gd")
 const LobeReduction := preload("lobe_reduction.gd")
 const ProjectFiles := preload("project_files.gd")
 const SetReach := preload("set_reach.gd")
-const TableChoice := preload("../../runtime/table_choice.gd")
-const Widths := preload("../../runtime/widths.gd")
+const TableChoice := preload("../../runtime/material/table_choice.gd")
+const Widths := preload("../../runtime/table/widths.gd")
 
 const TABLES := "res://addons/lobelight/tables/"
 const DECLARATION := "metadata/lobelight_reach"

@@ -3,9 +3,9 @@ extends RefCounted
 ## Makes the light of a panorama in a file, as [LobeEnvironment3D] does, but for previews only: the
 ## edited scene goes on being lit by its own.
 
-const EnvironmentLight := preload("../../runtime/environment_light.gd")
+const EnvironmentLight := preload("../../runtime/light/environment_light.gd")
 const NativeLibrary := preload("../bake/native_library.gd")
-const Pyramid := preload("../../runtime/pyramid.gd")
+const Pyramid := preload("../../runtime/pyramid/pyramid.gd")
 
 ## Why there is no light, in a sentence.
 var error := ""

@@ -3,7 +3,7 @@ extends VBoxContainer
 ## A sphere drawn with a table's lobes, as a game draws it, beside the reference that the library
 ## integrates by brute force, in an environment of choice.
 
-const EnvironmentLight := preload("../../runtime/environment_light.gd")
+const EnvironmentLight := preload("../../runtime/light/environment_light.gd")
 const FormRow := preload("../bake/form_row.gd")
 const NativeLibrary := preload("../bake/native_library.gd")
 const PanoramaLight := preload("panorama_light.gd")

@@ -6,8 +6,8 @@ extends TextureRect
 ## Pixels along the side of the picture.
 const SIZE := 128
 
-const EnvironmentLight := preload("../../runtime/environment_light.gd")
-const LightRegistry := preload("../../runtime/light_registry.gd")
+const EnvironmentLight := preload("../../runtime/light/environment_light.gd")
+const LightRegistry := preload("../../runtime/light/light_registry.gd")
 
 ## What the sphere is made of.
 var material_3d: LobeMaterial3D:

@@ -2,9 +2,9 @@
 extends Object
 ## What keeps a scene from looking as it could, each in a sentence or two that say what to do.
 
-const EnvironmentWarnings := preload("../../runtime/environment_warnings.gd")
-const TableChoice := preload("../../runtime/table_choice.gd")
-const WidthsTexture := preload("../../runtime/widths_texture.gd")
+const EnvironmentWarnings := preload("../../runtime/warnings/environment_warnings.gd")
+const TableChoice := preload("../../runtime/material/table_choice.gd")
+const WidthsTexture := preload("../../runtime/table/widths_texture.gd")
 const SceneUsage := preload("../menu/scene_usage.gd")
 
 

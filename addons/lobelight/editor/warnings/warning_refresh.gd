@@ -3,7 +3,7 @@ extends Timer
 ## Keeps the scene tree's warnings of [LobeEnvironment3D]s up to date. The nodes tell of their own
 ## properties; this looks at what else there is to it: skies that come, go or change.
 
-const EnvironmentWarnings := preload("../../runtime/environment_warnings.gd")
+const EnvironmentWarnings := preload("../../runtime/warnings/environment_warnings.gd")
 const SceneUsage := preload("../menu/scene_usage.gd")
 
 # What the scene tree shows, by the nodes' instance ids.

@@ -3,7 +3,7 @@ extends Object
 ## What keeps a [LobeEnvironment3D] from lighting its scene as it could, each in a sentence or two
 ## that say what to do. The scene tree and the inspector show them; players never look.
 
-const Pyramid := preload("pyramid.gd")
+const Pyramid := preload("../pyramid/pyramid.gd")
 
 # A panorama of as many texels around shows lamps as boxes on smooth materials.
 const _LEAST_PANORAMA := 512

@@ -1,5 +1,5 @@
 @tool
-@icon("../icons/lobe_table.svg")
+@icon("../../icons/lobe_table.svg")
 class_name LobeTableSet
 extends Resource
 ## Lobe tables of one BRDF for all widths.

@@ -1,5 +1,5 @@
 @tool
-extends "pyramid_cube.gd"
+extends "../pyramid/pyramid_cube.gd"
 ## A cube map that takes a pyramid's levels through the processor's memory: Compatibility, where
 ## nothing can draw or copy into a cube map.
 ##
@@ -7,8 +7,8 @@ extends "pyramid_cube.gd"
 ## not do, because OpenGL ES reads every texture back as eight-bit colours (Godot 4.6,
 ## drivers/gles3/storage/texture_storage.cpp, texture_2d_get). The faces are replaced together.
 
-const CanvasPass := preload("canvas_pass.gd")
-const PackShader := preload("shaders/pyramid_pack.gdshader")
+const CanvasPass := preload("../pyramid/canvas_pass.gd")
+const PackShader := preload("pyramid_pack.gdshader")
 
 var _size: int
 var _bytes := 0

@@ -9,12 +9,12 @@ extends RefCounted
 enum Filter { BOX, BINOMIAL, GAUSSIAN, DISC }
 
 const CanvasPass := preload("canvas_pass.gd")
-const OnDemand := preload("on_demand.gd")
+const OnDemand := preload("../on_demand.gd")
 
-const PanoramaShader := preload("shaders/pyramid_panorama.gdshader")
-const RoundShader := preload("shaders/pyramid_round.gdshader")
-const _VIEWS_SHADER := "res://addons/lobelight/runtime/shaders/pyramid_views.gdshader"
-const _REDUCE_SHADER := "res://addons/lobelight/runtime/shaders/pyramid_reduce.gdshader"
+const PanoramaShader := preload("../shaders/pyramid_panorama.gdshader")
+const RoundShader := preload("../shaders/pyramid_round.gdshader")
+const _VIEWS_SHADER := "res://addons/lobelight/runtime/skies/pyramid_views.gdshader"
+const _REDUCE_SHADER := "res://addons/lobelight/runtime/filters/pyramid_reduce.gdshader"
 
 ## By filter, a third of the variance that a level's kernel has per axis, in solid angles of the
 ## finer level's texels: c in shaders/environment.gdshaderinc.

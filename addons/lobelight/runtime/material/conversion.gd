@@ -4,8 +4,8 @@ extends RefCounted
 ## What [LobeMaterial3D] asks of material_conversion.gd, which exports leave out where nothing
 ## converts materials.
 
-const OnDemand := preload("on_demand.gd")
-const _PATH := "res://addons/lobelight/runtime/material_conversion.gd"
+const OnDemand := preload("../on_demand.gd")
+const _PATH := "res://addons/lobelight/runtime/conversion/material_conversion.gd"
 
 
 ## Null, and an error, if the export has left it out.

@@ -1,5 +1,5 @@
 @tool
-extends "world_light.gd"
+extends "../light/world_light.gd"
 ## The light of the world around a node: its sky, alone or with the scene before it, seen by six
 ## cameras; or the panorama of its sky.
 

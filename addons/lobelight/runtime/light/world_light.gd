@@ -7,9 +7,9 @@ extends RefCounted
 ## What is drawn of the world: nothing, since its sky is but a panorama; the sky; the scene.
 enum Views { NONE, SKY, SCENE }
 
-const FaceViews := preload("face_views.gd")
-const OnDemand := preload("on_demand.gd")
-const _PATH := "res://addons/lobelight/runtime/world_views.gd"
+const FaceViews := preload("../pyramid/face_views.gd")
+const OnDemand := preload("../on_demand.gd")
+const _PATH := "res://addons/lobelight/runtime/skies/world_views.gd"
 
 
 ## The light of a node's world; null, and an error, if the export has left it out.

@@ -1,8 +1,8 @@
 @tool
-extends "pyramid_cube.gd"
+extends "../pyramid/pyramid_cube.gd"
 ## A cube map that takes a pyramid's levels without leaving the GPU: Forward+ and Mobile.
 
-const CanvasPass := preload("canvas_pass.gd")
+const CanvasPass := preload("../pyramid/canvas_pass.gd")
 const OwnedCubemap := preload("owned_cubemap.gd")
 
 # Bound to what it copies and to the outcome; made once.

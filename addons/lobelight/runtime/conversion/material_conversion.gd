@@ -1,9 +1,9 @@
 @tool
-extends "conversion.gd"
+extends "../material/conversion.gd"
 ## Between Godot's own materials and [LobeMaterial3D]; see [method LobeMaterial3D.from_standard] and
 ## [method LobeMaterial3D.to_standard].
 
-const Widths := preload("widths.gd")
+const Widths := preload("../table/widths.gd")
 
 # Of the same name and meaning on both sides.
 const _SHARED: Array[StringName] = [

@@ -2,8 +2,8 @@
 extends RefCounted
 ## Which lobes a [LobeMaterial3D] draws: a table, or all tables of a set.
 
-const Widths := preload("widths.gd")
-const WidthsTexture := preload("widths_texture.gd")
+const Widths := preload("../table/widths.gd")
+const WidthsTexture := preload("../table/widths_texture.gd")
 const DEFAULT_SET := "res://addons/lobelight/tables/ggx_8.res"
 
 # Kept from one look to the next: loading a set takes a while.

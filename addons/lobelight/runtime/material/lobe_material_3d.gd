@@ -1,5 +1,5 @@
 @tool
-@icon("../icons/lobe_material_3d.svg")
+@icon("../../icons/lobe_material_3d.svg")
 class_name LobeMaterial3D
 extends ShaderMaterial
 ## A material lit by its surroundings through the lobes of its BRDF: metals, brushed ones too,
@@ -67,24 +67,24 @@ enum EmissionOperator {
 }
 
 const Conversion := preload("conversion.gd")
-const LightRegistry := preload("light_registry.gd")
+const LightRegistry := preload("../light/light_registry.gd")
 const MaterialParameters := preload("material_parameters.gd")
 const MaterialShader := preload("material_shader.gd")
 const TableChoice := preload("table_choice.gd")
-const Widths := preload("widths.gd")
+const Widths := preload("../table/widths.gd")
 
 # Loaded here so that exported projects contain them.
 const _INCLUDES: Array[ShaderInclude] = [
-	preload("shaders/clear_coat.gdshaderinc"),
-	preload("shaders/colour.gdshaderinc"),
-	preload("shaders/diffuse.gdshaderinc"),
-	preload("shaders/environment.gdshaderinc"),
-	preload("shaders/frame.gdshaderinc"),
-	preload("shaders/lobe_table.gdshaderinc"),
-	preload("shaders/material.gdshaderinc"),
-	preload("shaders/material_inputs.gdshaderinc"),
-	preload("shaders/specular.gdshaderinc"),
-	preload("shaders/widths.gdshaderinc"),
+	preload("../clear_coat/clear_coat.gdshaderinc"),
+	preload("../shaders/colour.gdshaderinc"),
+	preload("../diffuse/diffuse.gdshaderinc"),
+	preload("../shaders/environment.gdshaderinc"),
+	preload("../shaders/frame.gdshaderinc"),
+	preload("../shaders/lobe_table.gdshaderinc"),
+	preload("../shaders/material.gdshaderinc"),
+	preload("../shaders/material_inputs.gdshaderinc"),
+	preload("../shaders/specular.gdshaderinc"),
+	preload("../shaders/widths.gdshaderinc"),
 ]
 
 # Shaders in use, by their code.
@@ -446,7 +446,7 @@ func to_standard() -> BaseMaterial3D:
 ## with the same lobes override it.
 func _get_fragment_path() -> String:
 	var folder: String = (LobeMaterial3D as Script).resource_path.get_base_dir()
-	return folder.path_join("shaders/material.gdshaderinc")
+	return folder.path_join("../shaders/material.gdshaderinc")
 
 
 func _follow(before: Resource, after: Resource) -> void:

@@ -8,8 +8,8 @@ enum Kind { NONE, PANORAMA, SKY_PANORAMA, SKY_VIEWS, SCENE_VIEWS }
 
 const EnvironmentLight := preload("environment_light.gd")
 const LiveTextures := preload("live_textures.gd")
-const Pyramid := preload("pyramid.gd")
-const PyramidChain := preload("pyramid_chain.gd")
+const Pyramid := preload("../pyramid/pyramid.gd")
+const PyramidChain := preload("../pyramid/pyramid_chain.gd")
 const WorldLight := preload("world_light.gd")
 
 ## Where nothing says how fine the light is.

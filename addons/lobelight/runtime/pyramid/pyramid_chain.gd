@@ -7,14 +7,14 @@ extends RefCounted
 ## other levels, and in Compatibility the faces that are read back. The cube map changes with the
 ## last slice. Updates allocate nothing on the GPU.
 
-const EnvironmentLight := preload("environment_light.gd")
+const EnvironmentLight := preload("../light/environment_light.gd")
 const FaceViews := preload("face_views.gd")
-const OnDemand := preload("on_demand.gd")
+const OnDemand := preload("../on_demand.gd")
 const Pyramid := preload("pyramid.gd")
 const PyramidCube := preload("pyramid_cube.gd")
 
-const _GPU_CUBE := "res://addons/lobelight/runtime/gpu_cube.gd"
-const _PACKED_CUBE := "res://addons/lobelight/runtime/packed_cube.gd"
+const _GPU_CUBE := "res://addons/lobelight/runtime/rendering_device/gpu_cube.gd"
+const _PACKED_CUBE := "res://addons/lobelight/runtime/compatibility/packed_cube.gd"
 
 # The engine tells some frames later what drawing a viewport took, and only if it draws it in that
 # frame as well.

@@ -1,5 +1,5 @@
 @tool
-extends "face_views.gd"
+extends "../pyramid/face_views.gd"
 ## Six cameras that see everything around a point, for level 0 of a pyramid.
 ##
 ## They draw linear light up to 65504, and in Compatibility the engine's encoding of it. The views

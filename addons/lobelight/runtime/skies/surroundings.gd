@@ -3,7 +3,7 @@ extends RefCounted
 ## What the camera of a node's viewport sees around the scene: the environment that the engine would
 ## take, a copy of it for the views, and whether it has changed.
 
-const LiveTextures := preload("live_textures.gd")
+const LiveTextures := preload("../light/live_textures.gd")
 
 # What there is behind the scene, and the fog before it.
 const _BACKGROUND: Array[StringName] = [

@@ -1,5 +1,5 @@
 @tool
-@icon("../icons/lobe_table.svg")
+@icon("../../icons/lobe_table.svg")
 class_name LobeTable
 extends Resource
 ## A BRDF as Gaussian lobes, over the view direction.

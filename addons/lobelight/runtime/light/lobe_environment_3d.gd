@@ -1,5 +1,5 @@
 @tool
-@icon("../icons/lobe_environment_3d.svg")
+@icon("../../icons/lobe_environment_3d.svg")
 class_name LobeEnvironment3D
 extends Node3D
 ## Where the light of [LobeMaterial3D]s comes from.
@@ -84,8 +84,8 @@ enum Filter {
 const EnvironmentLight := preload("environment_light.gd")
 const EnvironmentSource := preload("environment_source.gd")
 const LightRegistry := preload("light_registry.gd")
-const Pyramid := preload("pyramid.gd")
-const PyramidChain := preload("pyramid_chain.gd")
+const Pyramid := preload("../pyramid/pyramid.gd")
+const PyramidChain := preload("../pyramid/pyramid_chain.gd")
 
 const _GROUP := &"_lobelight_environments"
 # Frames without an update after which the memory for drawing is given back.
@@ -269,7 +269,7 @@ func _validate_property(property: Dictionary) -> void:
 
 # The engine asks in the editor only; what answers is in no export.
 func _get_configuration_warnings() -> PackedStringArray:
-	const WARNINGS := "res://addons/lobelight/runtime/environment_warnings.gd"
+	const WARNINGS := "res://addons/lobelight/runtime/warnings/environment_warnings.gd"
 	if not ResourceLoader.exists(WARNINGS):
 		return []
 	return load(WARNINGS).of(self, get_tree().edited_scene_root if is_inside_tree() else null)

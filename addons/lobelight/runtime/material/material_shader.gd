@@ -2,7 +2,7 @@
 extends Object
 ## The shader variant of a [LobeMaterial3D]: its render modes and defines.
 
-const LightRegistry := preload("light_registry.gd")
+const LightRegistry := preload("../light/light_registry.gd")
 const TableChoice := preload("table_choice.gd")
 
 const _BLEND_MODES: PackedStringArray = [
