@@ -13,6 +13,7 @@ CLASSES = {
     "LobeEnvironment3D",
     "LobeImageFile",
     "LobeMaterial3D",
+    "LobeProbe3D",
     "LobeReference",
     "LobeTable",
     "LobeTableSet",

@@ -1,0 +1,200 @@
+@tool
+@icon("../../icons/lobe_probe_3d.svg")
+class_name LobeProbe3D
+extends Node3D
+## The light of a room, for [LobeMaterial3D]s.
+##
+## A box that is to have the size of the room. What stands in it reflects the room instead of the
+## [LobeEnvironment3D]'s light, from where it stands: each lobe is moved to the place on the box's
+## faces that it comes from. The box is turned with the node; its scale does not matter.
+## [br][br]
+## [b]Where the light comes from.[/b] Either from [member light], which was baked in the editor and
+## is right in the first frame of the game; or, without one, from a capture of the scene around
+## [member origin_offset], made when the game runs and as [member update_mode] says.
+## [br][br]
+## [b]Several probes.[/b] Each pixel of a mesh takes the light of the probes around it. Of probes
+## that overlap, those of the highest [member priority] come first; equal ones are mixed. Outside a
+## box its light fades over [member blend_distance] into what lies there: the next probe or the
+## environment.
+## [br][br]
+## Names and defaults are those of [ReflectionProbe], and so is what they do where nothing else is
+## said. Its box projection is always on here, and its ambient light is not there:
+## [LobeMaterial3D]s take no ambient light from probes. A hidden node gives no light.
+
+## The room has been captured anew and the materials show it.
+signal rebuilt
+## A rebuild has ended, with a light or, as [method get_rebuild_error] says, without.
+signal rebuild_finished
+
+## When the room is captured anew. With a baked [member light] it never is.
+enum UpdateMode {
+	## When the node enters the tree, when its own properties change, and by [method rebuild].
+	ONCE,
+	## Also when the node moves and when the scene's sky changes. Nothing tells of what else
+	## happens in the scene: call [method rebuild] then, or take another mode.
+	WHEN_CHANGED,
+	## In every frame.
+	EVERY_FRAME,
+	## All the time, spread over frames. The light is replaced at the end of each turn.
+	TIME_SLICED,
+}
+
+## The box is at least that long along each axis, in metres.
+const MIN_SIZE := 0.02
+
+# The capture point keeps this distance from the box's faces, as that of a ReflectionProbe does.
+const _MARGIN := 0.01
+const _DEFAULT_SIZE := 20.0
+
+## When the room is captured anew.
+@export var update_mode := UpdateMode.ONCE:
+	set(value):
+		update_mode = value
+		_mark_stale()
+		update_configuration_warnings()
+## A factor for the light.
+@export_range(0.0, 1.0, 0.01, "or_greater") var intensity := 1.0:
+	set(value):
+		intensity = value if is_finite(value) and value > 0.0 else 0.0
+		_update_placement()
+		update_configuration_warnings()
+## How far outside the box its light has faded into what lies there, in metres. Inside the box it is
+## always whole, unlike that of a [ReflectionProbe], so that the box can have the room's size.
+@export_range(0.0, 8.0, 0.01, "or_greater", "suffix:m") var blend_distance := 1.0:
+	set(value):
+		blend_distance = value if is_finite(value) and value > 0.0 else 0.0
+		_update_placement()
+		update_gizmos()
+## Where boxes overlap, the light of the highest priority comes first, and others get what it
+## leaves. Probes of one priority are mixed.
+@export var priority := 0:
+	set(value):
+		priority = value
+		_update_placement()
+## How far from the capture point the scene is captured, in metres, and at least as far as the box's
+## corners: what is farther is not drawn, which saves time where much lies outside the room.
+@export_range(0.0, 16384.0, 0.1, "or_greater", "exp", "suffix:m") var max_distance := 0.0:
+	set(value):
+		max_distance = value if is_finite(value) and value > 0.0 else 0.0
+		_mark_stale()
+## The box's edges, in metres, along the node's own axes; its middle is the node. It should end at
+## the walls.
+@export_custom(PROPERTY_HINT_NONE, "suffix:m")
+var size := Vector3(_DEFAULT_SIZE, _DEFAULT_SIZE, _DEFAULT_SIZE):
+	set(value):
+		for axis in 3:
+			size[axis] = maxf(value[axis], MIN_SIZE) if is_finite(value[axis]) else _DEFAULT_SIZE
+		# A smaller box may leave the capture point outside.
+		origin_offset = origin_offset
+		_update_placement()
+		update_gizmos()
+		update_configuration_warnings()
+## The point that the room is captured from, from the box's middle, in metres. It stays inside the
+## box, and should be in no object.
+@export_custom(PROPERTY_HINT_NONE, "suffix:m") var origin_offset := Vector3.ZERO:
+	set(value):
+		var inside := _clamp_origin(value)
+		if inside == origin_offset:
+			return
+		origin_offset = inside
+		_mark_stale()
+		_update_placement()
+		update_gizmos()
+## Whether the sky is left out of the capture: it is black then, so that it cannot shine through
+## gaps. Lamps and what materials emit are captured nonetheless.
+@export var interior := false:
+	set(value):
+		interior = value
+		_mark_stale()
+		update_configuration_warnings()
+## Layers of the scene that are captured.
+@export_flags_3d_render var cull_mask := 0xFFFFF:
+	set(value):
+		cull_mask = value
+		_mark_stale()
+		update_configuration_warnings()
+## A light that was baked, by [i]Bake Light[/i] in the inspector. The probe shows it instead of
+## captures, from the first frame on.
+@export var light: Resource:
+	set(value):
+		light = value
+		_mark_stale()
+		_update_placement()
+		notify_property_list_changed()
+		update_configuration_warnings()
+
+var _error := ""
+
+
+func _init() -> void:
+	# The box is of metres, as that of a ReflectionProbe is.
+	set_disable_scale(true)
+	set_notify_transform(true)
+
+
+func _notification(what: int) -> void:
+	match what:
+		NOTIFICATION_TRANSFORM_CHANGED:
+			_update_placement()
+			if update_mode == UpdateMode.WHEN_CHANGED:
+				_mark_stale()
+			update_configuration_warnings()
+
+
+# The engine asks in the editor only; what answers is in no export.
+func _get_configuration_warnings() -> PackedStringArray:
+	const WARNINGS := "res://addons/lobelight/runtime/warnings/probe_warnings.gd"
+	if not ResourceLoader.exists(WARNINGS):
+		return []
+	return load(WARNINGS).of(self)
+
+
+## The box in the node's own axes.
+func get_aabb() -> AABB:
+	return AABB(-0.5 * size, size)
+
+
+## The box's middle and axes in the world, without scale. It takes points of [method get_aabb] to the
+## world.
+func get_box() -> Transform3D:
+	var place := global_transform if is_inside_tree() else transform
+	return place.orthonormalized()
+
+
+## Why the last [method rebuild] captured nothing, in a sentence; empty if it did.
+func get_rebuild_error() -> String:
+	return _error
+
+
+## Captures the room anew. Changing a property does so by itself; call it when the scene has
+## changed. It takes until the end of a frame: [code]await probe.rebuild()[/code] gives false if it
+## could not be done, with the reason in [method get_rebuild_error].
+func rebuild() -> bool:
+	_error = "Rooms cannot be captured yet."
+	rebuild_finished.emit()
+	return false
+
+
+# How far the views of a capture reach: to the box's farthest corner at least, so that no wall at a
+# face of the box is cut off by rounding.
+func _get_reach() -> float:
+	return maxf(max_distance, (0.5 * size + origin_offset.abs()).length())
+
+
+# What a capture would show is another from now on.
+func _mark_stale() -> void:
+	pass
+
+
+# The light is the same, but shows elsewhere, or by another factor or order.
+func _update_placement() -> void:
+	pass
+
+
+func _clamp_origin(point: Vector3) -> Vector3:
+	var inside := Vector3.ZERO
+	for axis in 3:
+		var limit := maxf(0.5 * size[axis] - _MARGIN, 0.0)
+		if is_finite(point[axis]):
+			inside[axis] = clampf(point[axis], -limit, limit)
+	return inside
