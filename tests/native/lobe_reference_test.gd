@@ -16,6 +16,16 @@ const REFUSED := [
 	["env", "", "env is missing"],
 	["env", 7, "env is 7 (int)"],
 	["lobes", 8, '"lobes" is not a key of a sphere to render'],
+	["walls", ["x.exr"], "env and walls exclude each other"],
+]
+
+## The same of a room.
+const REFUSED_ROOMS := [
+	["walls", ["x.exr"], "walls must be an Array of six paths"],
+	["room_size", [6, 3], "room_size must be an Array of three numbers"],
+	["room_size", [6, 0, 8], "room_size must be three positive numbers"],
+	["centre", [0, 1.2, 0], "does not lie within the room"],
+	["radius", -1, "radius must be a positive number"],
 ]
 
 var _grey := ""
@@ -60,6 +70,29 @@ func test_constant_light_gives_the_albedo() -> void:
 			inside += 1
 	# π/4 of the square.
 	assert_int(inside).is_between(190, 212)
+
+
+func test_a_room_of_constant_walls_is_as_a_constant_panorama() -> void:
+	var room := OPTIONS.merged(
+		{"walls": [_grey, _grey, _grey, _grey, _grey, _grey], "room_size": [6, 3, 8]}
+	)
+	room.merge({"centre": [2.2, -0.9, 2.6], "radius": 0.4})
+	var picture := LobeReference.new().render_sphere(room)
+	assert_str(picture.get("error", "")).is_empty()
+	var expected := LobeReference.new().render_sphere(_options({}))
+	for index: int in picture.pixels.size():
+		assert_float(picture.pixels[index]).is_equal_approx(expected.pixels[index], 1e-5)
+
+
+func test_rooms_that_cannot_be_meant_are_refused(
+	key: String, value: Variant, said: String, _test_parameters := REFUSED_ROOMS
+) -> void:
+	var room := OPTIONS.merged(
+		{"walls": [_grey, _grey, _grey, _grey, _grey, _grey], "room_size": [6, 3, 8]}
+	)
+	room.merge({"centre": [0, 0, 0], "radius": 0.4})
+	room[key] = value
+	assert_str(LobeReference.new().render_sphere(room).get("error", "")).contains(said)
 
 
 func test_threads_do_not_change_the_picture() -> void:

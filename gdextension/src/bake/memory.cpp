@@ -107,10 +107,12 @@ std::size_t memory_bound(const SetRecipe& recipe) {
 
 std::size_t memory_bound(const SphereRequest& request, int environment_width,
                          int environment_height) {
-  std::size_t bound = kBesides + picture_bytes(request.options.size, request.options.size) +
-                      count(environment_width) * count(environment_height) * kSampledBytes +
-                      // Points of both samplers, a quarter of them at a time.
-                      4 * count(request.options.samples);
+  const std::size_t pictures = request.room ? kWalls : 1;
+  std::size_t bound =
+      kBesides + picture_bytes(request.options.size, request.options.size) +
+      pictures * count(environment_width) * count(environment_height) * kSampledBytes +
+      // Points of both samplers, a quarter of them at a time.
+      4 * count(request.options.samples);
   if (is_measured_file(request.brdf)) {
     bound += kFileFactor * file_bytes(request.brdf) + kSampleTables;
   }
@@ -144,10 +146,12 @@ void check_memory(const SetRecipe& recipe) {
 
 void check_memory(const SphereRequest& request, int environment_width, int environment_height) {
   check(memory_bound(request, environment_width, environment_height),
-        environment_width > 0 ? "env is a panorama of " + std::to_string(environment_width) +
-                                    " x " + std::to_string(environment_height) + " texels"
-                              : "size is " + std::to_string(request.options.size) +
-                                    " and brdf is \"" + one_line(request.brdf) + "\"");
+        environment_width > 0
+            ? (request.room ? "walls has a picture of " : "env is a panorama of ") +
+                  std::to_string(environment_width) + " x " + std::to_string(environment_height) +
+                  " texels"
+            : "size is " + std::to_string(request.options.size) + " and brdf is \"" +
+                  one_line(request.brdf) + "\"");
 }
 
 }  // namespace lobelight

@@ -18,7 +18,8 @@ constexpr std::size_t kMaxImageTexels = std::size_t{1} << 28;
 // - of measurements: 6 times their file, and what colours take;
 // - of "lobes": "auto": 76 bytes for each texel of an environment as it is looked at;
 // - of sets: 176 bytes for each texel of the tables that are fitted at the same time;
-// - of pictures: 48 bytes for each pixel and 50 for each of the environment's texels.
+// - of pictures: 48 bytes for each pixel and 50 for each of the environment's texels, or of six
+//   walls as large as the one that is given.
 // Not counted are threads' stacks and, while an environment is read, its file and picture: 12 bytes
 // for each of its texels, of which kMaxPanoramaTexels is the limit.
 std::size_t memory_bound(const TableRequest& request);

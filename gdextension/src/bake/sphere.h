@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 
 #include "base/progress.h"
@@ -9,9 +12,17 @@
 
 namespace lobelight {
 
-// A reference picture: the sphere of render_sphere() in the light of a file.
+// The room whose walls light the sphere, instead of an environment.
+struct RoomRequest {
+  glm::dvec3 size{0.0};                   // in metres
+  std::array<std::string, kWalls> walls;  // paths of pictures, UTF-8, in the order of Room::walls
+  RoomSphere sphere;
+};
+
+// A reference picture: the sphere of render_sphere() in the light of files.
 struct SphereRequest {
-  std::string environment;     // path of a panorama, UTF-8
+  std::string environment;  // path of a panorama, UTF-8
+  std::optional<RoomRequest> room;
   std::string brdf = "ward";   // as make_brdf() takes it
   glm::dvec2 alpha{0.1, 0.1};  // (0, 0) for files: estimated
   SphereOptions options;

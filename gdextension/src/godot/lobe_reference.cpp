@@ -1,5 +1,10 @@
 #include "godot/lobe_reference.h"
 
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "bake/sphere.h"
 #include "brdf/measured.h"
 #include "godot/convert.h"
@@ -11,9 +16,39 @@ namespace lobelight {
 
 namespace {
 
+glm::dvec3 read_point(const Request& request, std::string_view key) {
+  const std::vector<double> numbers = request.numbers(key);
+  if (numbers.size() != 3) {
+    throw std::invalid_argument(std::string(key) + " must be an Array of three numbers.");
+  }
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+RoomRequest read_room(const Request& request) {
+  RoomRequest room;
+  const std::vector<std::string> walls = request.texts("walls");
+  if (walls.size() != kWalls) {
+    throw std::invalid_argument("walls must be an Array of six paths.");
+  }
+  for (std::size_t w = 0; w < kWalls; ++w) {
+    room.walls[w] = file_system_path(to_godot(walls[w]));
+  }
+  room.size = read_point(request, "room_size");
+  room.sphere.centre = read_point(request, "centre");
+  room.sphere.radius = request.real("radius", room.sphere.radius);
+  return room;
+}
+
 SphereRequest read_request(const Request& request) {
   SphereRequest sphere;
-  sphere.environment = file_system_path(to_godot(request.required_text("env")));
+  if (request.has("walls")) {
+    if (request.has("env")) {
+      throw std::invalid_argument("env and walls exclude each other.");
+    }
+    sphere.room = read_room(request);
+  } else {
+    sphere.environment = file_system_path(to_godot(request.required_text("env")));
+  }
   sphere.brdf = request.text("brdf", sphere.brdf);
   if (is_measured_file(sphere.brdf)) sphere.brdf = file_system_path(to_godot(sphere.brdf));
   sphere.alpha = request.widths("alpha", sphere.alpha);
@@ -29,7 +64,7 @@ SphereRequest read_request(const Request& request) {
 Dictionary to_dictionary(const SpherePicture& picture, const std::string& env,
                          const SphereOptions& options) {
   Dictionary result;
-  result["env"] = to_godot(env);
+  if (!env.empty()) result["env"] = to_godot(env);
   result["brdf"] = to_godot(picture.brdf);
   result["alpha"] = to_godot(picture.alpha);
   result["size"] = picture.image.size;
@@ -52,8 +87,9 @@ Dictionary LobeReference::render_sphere(const Dictionary& options) const { retur
 
 LobeTask::Work LobeReference::prepare(const Dictionary& options) const {
   const Request request(options, "a sphere to render",
-                        {"env", "brdf", "alpha", "size", "samples", "seed", "threads"});
-  return [env = request.required_text("env"), sphere = read_request(request)](Progress& progress) {
+                        {"env", "brdf", "alpha", "size", "samples", "seed", "threads", "walls",
+                         "room_size", "centre", "radius"});
+  return [env = request.text("env", ""), sphere = read_request(request)](Progress& progress) {
     return to_dictionary(render_picture(sphere, progress), env, sphere.options);
   };
 }

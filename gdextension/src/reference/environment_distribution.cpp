@@ -21,11 +21,6 @@ double brightness(const glm::vec4& texel) {
          3.0;
 }
 
-// The density 1 − |x| on [−1, 1].
-double sample_tent(double u) {
-  return u < 0.5 ? std::sqrt(2.0 * u) - 1.0 : 1.0 - std::sqrt(2.0 * (1.0 - u));
-}
-
 // Brightness above the map's geometric mean times the sine of the polar angle, for each texel.
 std::vector<double> texel_weights(const std::vector<glm::vec4>& texels, int width, int height,
                                   const Progress* progress) {
@@ -85,19 +80,30 @@ EnvironmentDistribution::EnvironmentDistribution(const Panorama& panorama, const
 }
 
 ClusterChoice EnvironmentDistribution::choose_by(const std::vector<double>& importance) const {
-  const std::vector<LightCluster>& clusters = light_.clusters;
-  ClusterChoice choice;
-  choice.cumulative.reserve(clusters.size() + 1);
-  choice.cumulative.push_back(0.0);
-  for (std::size_t k = 0; k < clusters.size(); ++k) {
-    choice.cumulative.push_back(choice.cumulative.back() + importance[k] * clusters[k].share);
+  std::vector<double> shares;
+  shares.reserve(light_.clusters.size());
+  for (const LightCluster& cluster : light_.clusters) shares.push_back(cluster.share);
+  return choose_in_proportion(importance, shares);
+}
+
+ClusterChoice EnvironmentDistribution::choose(const glm::dvec3&,
+                                              const Reflectance& reflectance) const {
+  std::vector<double> importance;
+  importance.reserve(light_.clusters.size());
+  for (const LightCluster& cluster : light_.clusters) {
+    importance.push_back(reflectance(cluster.direction));
   }
-  const double total = choice.cumulative.back();
-  if (!(total > 0.0) || !std::isfinite(total)) return {};
-  for (double& value : choice.cumulative) value /= total;
-  choice.scale.reserve(clusters.size());
-  for (const double value : importance) choice.scale.push_back(value / total);
-  return choice;
+  return choose_by(importance);
+}
+
+EnvironmentSample EnvironmentDistribution::sample(const ClusterChoice& choice, const glm::dvec3&,
+                                                  const glm::dvec2& u) const {
+  return sample(choice, u);
+}
+
+EnvironmentSample EnvironmentDistribution::at(const ClusterChoice& choice, const glm::dvec3&,
+                                              const glm::dvec3& direction) const {
+  return at(choice, direction);
 }
 
 EnvironmentSample EnvironmentDistribution::interpolate(const ClusterChoice& choice,

@@ -8,24 +8,10 @@
 
 #include "base/progress.h"
 #include "image/panorama.h"
+#include "reference/incoming_light.h"
 #include "reference/light_clusters.h"
 
 namespace lobelight {
-
-// Radiance from a direction and the density with which it is drawn.
-struct EnvironmentSample {
-  glm::dvec3 direction;
-  glm::dvec3 radiance;
-  double pdf;  // Per steradian.
-};
-
-// How much each cluster of an environment counts at one surface point.
-struct ClusterChoice {
-  std::vector<double> cumulative;  // Probabilities of the clusters: clusters + 1 values, 0 to 1.
-  std::vector<double> scale;       // Probability of each over its share of the light.
-
-  bool empty() const { return scale.empty(); }
-};
 
 // A panorama's radiance, with densities over directions for importance sampling.
 //
@@ -35,7 +21,7 @@ struct ClusterChoice {
 // importance sampling", section 5. A direction is drawn by choosing a cluster, a texel in it and a
 // place under the texel's interpolation tent; so the density is the bilinear interpolation of
 // weights, just as the radiance is that of values, and positive wherever a bright texel reaches.
-class EnvironmentDistribution {
+class EnvironmentDistribution : public IncomingLight {
  public:
   // Copies what it needs, 38 bytes for each texel while it is made and 30 later. Values
   // that are no light count as Panorama::sanitise() makes them. Throws std::invalid_argument when
@@ -55,6 +41,13 @@ class EnvironmentDistribution {
 
   // Radiance and density (0 if the choice is empty) at a unit vector.
   EnvironmentSample at(const ClusterChoice& choice, const glm::dvec3& direction) const;
+
+  // The light is far away: the point does not matter.
+  ClusterChoice choose(const glm::dvec3& point, const Reflectance& reflectance) const override;
+  EnvironmentSample sample(const ClusterChoice& choice, const glm::dvec3& point,
+                           const glm::dvec2& u) const override;
+  EnvironmentSample at(const ClusterChoice& choice, const glm::dvec3& point,
+                       const glm::dvec3& direction) const override;
 
  private:
   EnvironmentSample interpolate(const ClusterChoice& choice, const glm::dvec2& position,

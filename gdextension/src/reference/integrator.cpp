@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
+
+#include "reference/environment_distribution.h"
 
 namespace lobelight {
 namespace {
@@ -40,19 +43,20 @@ glm::dvec3 tint(const Brdf& brdf, const glm::dvec3& i, const glm::dvec3& o) {
 
 }  // namespace
 
+Integrator::Integrator(std::shared_ptr<const IncomingLight> light, const Brdf& brdf, int samples,
+                       const Progress* progress)
+    : brdf_(brdf), light_(std::move(light)), points_(points_per_batch(samples), progress) {}
+
 Integrator::Integrator(const Panorama& panorama, const Brdf& brdf, int samples,
                        const Progress* progress)
-    : brdf_(brdf), environment_(panorama, progress), points_(points_per_batch(samples), progress) {}
+    : Integrator(std::make_shared<const EnvironmentDistribution>(panorama, progress), brdf, samples,
+                 progress) {}
 
-// The product of light and reflectance, as far as clusters resolve it.
 ClusterChoice Integrator::choose_clusters(const glm::dvec3& o, const SurfaceFrame& frame) const {
-  std::vector<double> importance;
-  importance.reserve(environment_.clusters().size());
-  for (const LightCluster& cluster : environment_.clusters()) {
-    const glm::dvec3 i = to_local(cluster.direction, frame);
-    importance.push_back(i.z > 0.0 ? brdf_.evaluate(i, o) * i.z : 0.0);
-  }
-  return environment_.choose_by(importance);
+  return light_->choose(frame.point, [&](const glm::dvec3& direction) {
+    const glm::dvec3 i = to_local(direction, frame);
+    return i.z > 0.0 ? brdf_.evaluate(i, o) * i.z : 0.0;
+  });
 }
 
 // Multiple importance sampling with the balance heuristic (Veach 1997, "Robust Monte Carlo methods
@@ -68,13 +72,15 @@ glm::dvec3 Integrator::batch(const glm::dvec3& o, const SurfaceFrame& frame,
     if (k % kBetweenChecks == 0) throw_if_cancelled(progress);
     const auto drawn = brdf_.sample(o, points_.scrambled(k, brdf_seed));
     if (!drawn) continue;
-    const EnvironmentSample light = environment_.at(choice, to_world(drawn->direction, frame));
+    const EnvironmentSample light =
+        light_->at(choice, frame.point, to_world(drawn->direction, frame));
     sum += light.radiance * tint(brdf_, drawn->direction, o) *
            (drawn->weight / (1.0 + light.pdf / drawn->pdf));
   }
   for (std::size_t k = 0; k < points_.size() && !choice.empty(); ++k) {
     if (k % kBetweenChecks == 0) throw_if_cancelled(progress);
-    const EnvironmentSample light = environment_.sample(choice, points_.scrambled(k, light_seed));
+    const EnvironmentSample light =
+        light_->sample(choice, frame.point, points_.scrambled(k, light_seed));
     const glm::dvec3 i = to_local(light.direction, frame);
     if (!(i.z > 0.0) || !(light.pdf > 0.0)) continue;
     const double reflected = brdf_.evaluate(i, o) * i.z;

@@ -2,11 +2,12 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 
 #include "base/progress.h"
 #include "brdf/brdf.h"
 #include "image/panorama.h"
-#include "reference/environment_distribution.h"
+#include "reference/incoming_light.h"
 #include "reference/sobol.h"
 
 namespace lobelight {
@@ -16,6 +17,7 @@ struct SurfaceFrame {
   glm::dvec3 tangent;
   glm::dvec3 bitangent;
   glm::dvec3 normal;
+  glm::dvec3 point{0.0};  // Matters to light that is near.
 };
 
 // Reflected radiance with its standard error, per channel.
@@ -30,6 +32,10 @@ class Integrator {
  public:
   // `samples`: BRDF samples per estimate, and as many of the environment; rounded up to a power of
   // two, at least 16. Throws Cancelled when `progress`, which may be null, is cancelled.
+  Integrator(std::shared_ptr<const IncomingLight> light, const Brdf& brdf, int samples,
+             const Progress* progress = nullptr);
+
+  // In the light of a panorama.
   Integrator(const Panorama& panorama, const Brdf& brdf, int samples,
              const Progress* progress = nullptr);
 
@@ -45,7 +51,7 @@ class Integrator {
                    std::uint64_t seed, const Progress* progress) const;
 
   const Brdf& brdf_;
-  EnvironmentDistribution environment_;
+  std::shared_ptr<const IncomingLight> light_;
   SobolPoints points_;
 };
 

@@ -28,8 +28,9 @@ bool cheaper(const Cell& a, const Cell& b) { return a.cost < b.cost; }
 
 class Builder {
  public:
-  Builder(int width, int height, const std::vector<double>& weights, const Progress* progress)
-      : width_(width), height_(height), weights_(weights), progress_(progress) {}
+  Builder(int width, int height, const std::vector<double>& weights, const TexelSpace& space,
+          const Progress* progress)
+      : width_(width), height_(height), weights_(weights), space_(space), progress_(progress) {}
 
   LightClusters build(std::size_t count) {
     std::size_t weighty = 0;
@@ -96,9 +97,7 @@ class Builder {
   Cell make_cell(int column, int row, int size, std::size_t first, std::size_t last) const {
     const double share = result_.cumulative[last] - result_.cumulative[first];
     const double middle = std::min(row + 0.5 * size, static_cast<double>(height_)) / height_;
-    const double tall = kPi * size / height_;
-    const double wide = 2.0 * kPi * size / width_ * std::sin(kPi * middle);
-    return {column, row, size, first, last, size == 1 ? 0.0 : share * std::max(tall, wide)};
+    return {column, row, size, first, last, size == 1 ? 0.0 : share * space_.extent(size, middle)};
   }
 
   // The parent's texels lie quadrant after quadrant.
@@ -129,15 +128,16 @@ class Builder {
     throw_if_cancelled(progress_);
     glm::dvec3 sum(0.0);
     glm::dvec3 direction(0.0);
+    double total = 0.0;
     for (std::size_t k = cell.first; k < cell.last; ++k) {
       const std::uint32_t texel = result_.order[k];
       result_.cluster_of[texel] = static_cast<std::uint16_t>(result_.clusters.size());
-      direction =
-          panorama_direction({(column_of(texel) + 0.5) / width_, (row_of(texel) + 0.5) / height_});
+      direction = space_.place((column_of(texel) + 0.5) / width_, (row_of(texel) + 0.5) / height_);
       sum += weight(texel) * direction;
+      total += weight(texel);
     }
     // Opposite directions may cancel in a cell as large as the map; then one of them serves.
-    const double length = glm::length(sum);
+    const double length = space_.is_sphere ? glm::length(sum) : total;
     result_.clusters.push_back({length > 0.0 ? sum / length : direction,
                                 result_.cumulative[cell.last] - result_.cumulative[cell.first],
                                 cell.first, cell.last});
@@ -146,6 +146,7 @@ class Builder {
   int width_;
   int height_;
   const std::vector<double>& weights_;
+  const TexelSpace& space_;
   const Progress* progress_;
   LightClusters result_;
 };
@@ -163,8 +164,25 @@ std::size_t LightClusters::choose(const LightCluster& cluster, double& u) const 
 }
 
 LightClusters make_light_clusters(int width, int height, const std::vector<double>& weights,
+                                  std::size_t count, const TexelSpace& space,
+                                  const Progress* progress) {
+  return Builder(width, height, weights, space, progress).build(count);
+}
+
+LightClusters make_light_clusters(int width, int height, const std::vector<double>& weights,
                                   std::size_t count, const Progress* progress) {
-  return Builder(width, height, weights, progress).build(count);
+  const TexelSpace sphere{
+      [](double u, double v) {
+        return panorama_direction({u, v});
+      },
+      [width, height](int size, double v) {
+        const double tall = kPi * size / height;
+        const double wide = 2.0 * kPi * size / width * std::sin(kPi * v);
+        return std::max(tall, wide);
+      },
+      true,
+  };
+  return make_light_clusters(width, height, weights, count, sphere, progress);
 }
 
 }  // namespace lobelight

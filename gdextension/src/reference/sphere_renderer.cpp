@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "reference/room_distribution.h"
 #include "reference/surface_renderer.h"
 
 namespace lobelight {
@@ -47,6 +49,36 @@ SphereImage render_sphere(const Panorama& panorama, const Brdf& brdf, const Sphe
   SurfaceImage image =
       render_surface(panorama, brdf, {0.0, 0.0, 1.0}, surface,
                      {size, size, options.samples, options.seed, options.threads}, progress);
+  return {size, std::move(image.radiance), std::move(image.standard_error)};
+}
+
+void validate(const Room& room, const RoomSphere& sphere) {
+  if (!(sphere.radius > 0.0) || !std::isfinite(sphere.radius)) {
+    throw std::invalid_argument("radius must be a positive number.");
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(room.size[axis] > 0.0) || !std::isfinite(room.size[axis])) {
+      throw std::invalid_argument("room_size must be three positive numbers.");
+    }
+    if (!(std::abs(sphere.centre[axis]) + sphere.radius < 0.5 * room.size[axis])) {
+      throw std::invalid_argument("The sphere does not lie within the room.");
+    }
+  }
+}
+
+SphereImage render_sphere(const Room& room, const RoomSphere& sphere, const Brdf& brdf,
+                          const SphereOptions& options, Progress& progress) {
+  validate(options);
+  validate(room, sphere);
+  const int size = options.size;
+  const auto surface = [&](int column, int row) {
+    auto frame = sphere_frame(column, row, size);
+    if (frame) frame->point = sphere.centre + sphere.radius * frame->normal;
+    return frame;
+  };
+  SurfaceImage image = render_surface(
+      std::make_shared<const RoomDistribution>(room, &progress), brdf, {0.0, 0.0, 1.0}, surface,
+      {size, size, options.samples, options.seed, options.threads}, progress);
   return {size, std::move(image.radiance), std::move(image.standard_error)};
 }
 

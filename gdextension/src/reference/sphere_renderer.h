@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "brdf/brdf.h"
 #include "image/panorama.h"
+#include "image/room.h"
 #include "reference/integrator.h"
 
 namespace lobelight {
@@ -40,5 +41,20 @@ std::optional<SurfaceFrame> sphere_frame(int column, int row, int size);
 // std::invalid_argument for an empty panorama or invalid options.
 SphereImage render_sphere(const Panorama& panorama, const Brdf& brdf, const SphereOptions& options,
                           Progress& progress);
+
+// A sphere in a room: it hides nothing of the walls.
+struct RoomSphere {
+  glm::dvec3 centre{0.0};
+  double radius = 1.0;
+};
+
+// Throws std::invalid_argument with a sentence that names what does not hold: the room's size and
+// the radius are positive, and the sphere lies within the box.
+void validate(const Room& room, const RoomSphere& sphere);
+
+// Renders the same picture of a sphere lit by the walls of `room`, each point as it sees them:
+// centre + radius · n. Throws as render_sphere() does, and what validate() throws.
+SphereImage render_sphere(const Room& room, const RoomSphere& sphere, const Brdf& brdf,
+                          const SphereOptions& options, Progress& progress);
 
 }  // namespace lobelight

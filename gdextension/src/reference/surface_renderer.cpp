@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "base/parallel.h"
+#include "reference/environment_distribution.h"
 #include "reference/sobol.h"
 
 namespace lobelight {
@@ -14,6 +16,12 @@ namespace {
 
 // Sines of angles below this are rounding.
 constexpr double kParallel = 1e-6;
+
+void check_size(const SurfaceOptions& options) {
+  if (options.width < 1 || options.height < 1) {
+    throw std::invalid_argument("A picture has at least one pixel.");
+  }
+}
 
 }  // namespace
 
@@ -31,10 +39,16 @@ std::optional<SurfaceFrame> frame_about(const glm::dvec3& normal, const glm::dve
 SurfaceImage render_surface(const Panorama& panorama, const Brdf& brdf, const glm::dvec3& view,
                             const SurfaceAt& surface, const SurfaceOptions& options,
                             Progress& progress) {
-  if (options.width < 1 || options.height < 1) {
-    throw std::invalid_argument("A picture has at least one pixel.");
-  }
-  const Integrator integrator(panorama, brdf, options.samples, &progress);
+  check_size(options);
+  return render_surface(std::make_shared<const EnvironmentDistribution>(panorama, &progress), brdf,
+                        view, surface, options, progress);
+}
+
+SurfaceImage render_surface(std::shared_ptr<const IncomingLight> light, const Brdf& brdf,
+                            const glm::dvec3& view, const SurfaceAt& surface,
+                            const SurfaceOptions& options, Progress& progress) {
+  check_size(options);
+  const Integrator integrator(std::move(light), brdf, options.samples, &progress);
   const std::size_t width = static_cast<std::size_t>(options.width);
   const std::size_t height = static_cast<std::size_t>(options.height);
   SurfaceImage image;

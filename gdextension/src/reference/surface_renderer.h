@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -38,9 +39,14 @@ using SurfaceAt = std::function<std::optional<SurfaceFrame>(int column, int row)
 std::optional<SurfaceFrame> frame_about(const glm::dvec3& normal, const glm::dvec3& tangent);
 
 // Renders a surface of which every pixel is seen from the direction `view` (a unit vector towards
-// the viewer) and lit by the whole `panorama`: nothing of the surface shadows another part of it,
+// the viewer) and lit by the whole `light`: nothing of the surface shadows another part of it,
 // and light is reflected once. Calls `surface` from several threads at once. Throws Cancelled when
-// `progress` is cancelled, and std::invalid_argument for an empty panorama or picture.
+// `progress` is cancelled, and std::invalid_argument for an empty picture.
+SurfaceImage render_surface(std::shared_ptr<const IncomingLight> light, const Brdf& brdf,
+                            const glm::dvec3& view, const SurfaceAt& surface,
+                            const SurfaceOptions& options, Progress& progress);
+
+// The same in the light of a panorama; std::invalid_argument also for an empty one.
 SurfaceImage render_surface(const Panorama& panorama, const Brdf& brdf, const glm::dvec3& view,
                             const SurfaceAt& surface, const SurfaceOptions& options,
                             Progress& progress);
