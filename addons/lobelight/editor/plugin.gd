@@ -3,8 +3,8 @@ extends EditorPlugin
 ## The editor's side of Lobelight.
 ##
 ## The types of the run time register themselves by their class names, and the baker by the native
-## library. What is added here: inspectors with bakes, plots and warnings, importers, conversions of
-## materials, a menu for scenes, and the filter of exports.
+## library. What is added here: inspectors with bakes, plots and warnings, gizmos, importers,
+## conversions of materials, a menu for scenes, and the filter of exports.
 
 const BakeDialog := preload("bake/bake_dialog.gd")
 const BakeQueue := preload("bake/bake_queue.gd")
@@ -12,6 +12,7 @@ const ExportPlugin := preload("export/export_plugin.gd")
 const MaterialConversionPlugin := preload("material_conversion_plugin.gd")
 const MeasuredImporter := preload("import/measured_importer.gd")
 const PanoramaImporter := preload("import/panorama_importer.gd")
+const ProbeGizmo := preload("gizmos/probe_gizmo.gd")
 const SceneConversionMenu := preload("scene_conversion_menu.gd")
 const TableInspector := preload("bake/table_inspector.gd")
 const TangentWarning := preload("tangent_warning.gd")
@@ -29,6 +30,7 @@ var _table_inspector: TableInspector
 var _importers: Array[EditorImportPlugin] = []
 var _warning_inspector: WarningInspector
 var _tools_menu: ToolsMenu
+var _probe_gizmo: ProbeGizmo
 
 
 func _enter_tree() -> void:
@@ -60,6 +62,9 @@ func _enter_tree() -> void:
 	add_child(WarningRefresh.new())
 	_tools_menu = ToolsMenu.new(_bakes, _scene_menu)
 	add_tool_submenu_item(ToolsMenu.TITLE, _tools_menu)
+	_probe_gizmo = ProbeGizmo.new(get_undo_redo())
+	add_node_3d_gizmo_plugin(_probe_gizmo)
+	_probe_gizmo.update_open_scenes()
 
 
 func _exit_tree() -> void:
@@ -76,6 +81,8 @@ func _exit_tree() -> void:
 	_table_inspector = null
 	remove_inspector_plugin(_warning_inspector)
 	_warning_inspector = null
+	remove_node_3d_gizmo_plugin(_probe_gizmo)
+	_probe_gizmo = null
 	# It is freed with its item.
 	remove_tool_menu_item(ToolsMenu.TITLE)
 	for importer in _importers:
@@ -90,6 +97,11 @@ func _exit_tree() -> void:
 ## Project > Tools > Lobelight.
 func get_tools_menu() -> ToolsMenu:
 	return _tools_menu
+
+
+## What the 3D view shows of probes.
+func get_probe_gizmo() -> ProbeGizmo:
+	return _probe_gizmo
 
 
 ## The bakes under way.

@@ -154,8 +154,8 @@ func get_aabb() -> AABB:
 	return AABB(-0.5 * size, size)
 
 
-## The box's middle and axes in the world, without scale. It takes points of [method get_aabb] to the
-## world.
+## The box's middle and axes in the world, without scale. It takes points of [method get_aabb] to
+## the world.
 func get_box() -> Transform3D:
 	var place := global_transform if is_inside_tree() else transform
 	return place.orthonormalized()
