@@ -90,7 +90,7 @@ class ShaderChanges(unittest.TestCase):
         return one.judge(shader_pyramid.reader(self.out, one, number), RENDERER)
 
     def test_every_shader_is_changed_once(self):
-        files = {path.name for path in (ROOT / projects.SHADERS).glob("*.gdshader*") if path.suffix != ".uid"}
+        files = {path.name for path in projects.shaders()}
         self.assertEqual(set(CHANGES), files)
 
     def test_the_shaders_as_they_are_pass(self):
@@ -128,9 +128,9 @@ class Mediump(unittest.TestCase):
             mediump.round_mediump("mediump float f(mediump vec2 p);\n", {"map"})
 
     def test_every_shader_can_be_rounded(self):
-        change = mediump.change_of(ROOT / projects.SHADERS)
+        change = mediump.change_of(projects.shaders())
         rounded = 0
-        for path in (ROOT / projects.SHADERS).glob("*.gdshaderinc"):
+        for path in (path for path in projects.shaders() if path.suffix == ".gdshaderinc"):
             rounded += change(path.name, path.read_text(encoding="utf-8")).count("half_of_phones(")
         # The table twice over and its tints, the coat's table, and the environment for lobes and diffuse light.
         self.assertEqual(rounded, 7)

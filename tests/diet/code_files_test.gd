@@ -7,14 +7,13 @@ const OnDemand := preload("res://addons/lobelight/runtime/on_demand.gd")
 const ProjectFiles := preload("res://addons/lobelight/editor/export/project_files.gd")
 const SCENES := "res://tests/diet/scenes/"
 const RUN_TIME := "res://addons/lobelight/runtime/"
-const SHADERS := RUN_TIME + "shaders/"
 const FEATURES: PackedStringArray = [
-	"shaders/clear_coat.gdshaderinc",
-	"shaders/diffuse.gdshaderinc",
-	"shaders/pyramid_reduce.gdshader",
-	"shaders/pyramid_views.gdshader",
-	"world_views.gd",
-	"material_conversion.gd",
+	"clear_coat/clear_coat.gdshaderinc",
+	"diffuse/diffuse.gdshaderinc",
+	"filters/pyramid_reduce.gdshader",
+	"skies/pyramid_views.gdshader",
+	"skies/world_views.gd",
+	"conversion/material_conversion.gd",
 ]
 
 ## A scene, and which of FEATURES it needs.
@@ -80,14 +79,18 @@ func _expect_features(files: PackedStringArray, needed: Array) -> void:
 func test_what_features_alone_load_stays_out_with_them() -> void:
 	var code := _code("isotropic")
 	for name: String in ["six_views.gd", "sky_stage.gd", "surroundings.gd"]:
-		assert_int(code.files[RUN_TIME + name].after).is_equal(0)
-		assert_int(_code("anisotropic").files[RUN_TIME + name].after).is_greater(500)
+		var path := RUN_TIME + "skies/" + name
+		assert_int(code.files[path].after).is_equal(0)
+		assert_int(_code("anisotropic").files[path].after).is_greater(500)
 
 
 # Only the editor asks for them.
 func test_no_export_has_the_warnings() -> void:
 	for scene: String in ["isotropic", "everything"]:
-		assert_int(_code(scene).files[RUN_TIME + "environment_warnings.gd"].after).is_equal(0)
+		(
+			assert_int(_code(scene).files[RUN_TIME + "warnings/environment_warnings.gd"].after)
+			. is_equal(0)
+		)
 
 
 func test_scenes_may_declare_features() -> void:
@@ -117,17 +120,19 @@ func test_renderers_that_no_system_has_stay_out(
 	var code := _code("isotropic")
 	for setting: String in before:
 		ProjectSettings.set_setting(setting, before[setting])
-	var names: PackedStringArray = ["gpu_cube.gd", "packed_cube.gd"]
+	var names: PackedStringArray = ["rendering_device/gpu_cube.gd", "compatibility/packed_cube.gd"]
 	for cube in 2:
 		assert_bool(code.files[RUN_TIME + names[cube]].after > 500).is_equal(kept[cube])
-	assert_bool(code.files[RUN_TIME + "owned_cubemap.gd"].after > 0).is_equal(kept[0])
+	assert_bool(code.files[RUN_TIME + "rendering_device/owned_cubemap.gd"].after > 0).is_equal(
+		kept[0]
+	)
 
 
 func test_shaders_lose_their_comments_and_nothing_else() -> void:
 	var code: CodeFiles = _code("everything")
 	var shaders := 0
 	for path in code.files:
-		if not path.begins_with(SHADERS):
+		if path.get_extension() == "gd" or code.files[path].after == 0:
 			continue
 		shaders += 1
 		var text := code.files[path].bytes.get_string_from_utf8()
@@ -138,7 +143,7 @@ func test_shaders_lose_their_comments_and_nothing_else() -> void:
 
 func test_a_feature_that_the_project_names_itself_is_not_empty() -> void:
 	var file := "user://diet_include.gd"
-	var path := SHADERS + "clear_coat.gdshaderinc"
+	var path := RUN_TIME + FEATURES[0]
 	_write(file, 'extends Node\n\nvar code := "#include \\"%s\\"\\n"\n' % path)
 	for files: Array in [[SCENES + "isotropic.tscn", file], [file, SCENES + "isotropic.tscn"]]:
 		var code: CodeFiles = Diet.of_files(PackedStringArray(files)).code
@@ -165,9 +170,9 @@ func test_of_a_project_without_the_addon_nothing_goes_along() -> void:
 
 func test_without_an_environment_its_scripts_stay_out() -> void:
 	var code: CodeFiles = _code("worn")
-	assert_int(code.files[RUN_TIME + "lobe_material_3d.gd"].after).is_greater(10000)
-	assert_int(code.files[RUN_TIME + "lobe_environment_3d.gd"].after).is_equal(0)
-	assert_int(code.files[RUN_TIME + "six_views.gd"].after).is_equal(0)
+	assert_int(code.files[RUN_TIME + "material/lobe_material_3d.gd"].after).is_greater(10000)
+	assert_int(code.files[RUN_TIME + "light/lobe_environment_3d.gd"].after).is_equal(0)
+	assert_int(code.files[RUN_TIME + "skies/six_views.gd"].after).is_equal(0)
 
 
 # Whatever a script of the run time that goes along loads goes along.
@@ -199,13 +204,13 @@ func test_a_script_that_puts_paths_together_keeps_all_files() -> void:
 
 func test_a_script_may_name_files_by_their_uids() -> void:
 	var file := "user://diet_uid.gd"
-	var id := ResourceLoader.get_resource_uid(RUN_TIME + "lobe_environment_3d.gd")
+	var id := ResourceLoader.get_resource_uid(RUN_TIME + "light/lobe_environment_3d.gd")
 	var uid := ResourceUID.id_to_text(id)
 	_write(file, 'extends Node\n\nconst A := preload("%s")\nconst B := "uid://none"\n' % uid)
 	var code: CodeFiles = Diet.of_files(PackedStringArray([file])).code
 	DirAccess.remove_absolute(file)
-	assert_int(code.files[RUN_TIME + "lobe_environment_3d.gd"].after).is_greater(0)
-	assert_int(code.files[RUN_TIME + "lobe_material_3d.gd"].after).is_equal(0)
+	assert_int(code.files[RUN_TIME + "light/lobe_environment_3d.gd"].after).is_greater(0)
+	assert_int(code.files[RUN_TIME + "material/lobe_material_3d.gd"].after).is_equal(0)
 
 
 func _write(path: String, text: String) -> void:

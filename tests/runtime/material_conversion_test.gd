@@ -2,7 +2,8 @@ extends GdUnitTestSuite
 ## Conversion between Godot's materials and LobeMaterial3D.
 
 const ConversionPlugin := preload("res://addons/lobelight/editor/material_conversion_plugin.gd")
-const MaterialConversion := preload("res://addons/lobelight/runtime/conversion/material_conversion.gd")
+const CONVERSION := "res://addons/lobelight/runtime/conversion/material_conversion.gd"
+const MaterialConversion := preload(CONVERSION)
 const SceneMenu := preload("res://addons/lobelight/editor/scene_conversion_menu.gd")
 
 

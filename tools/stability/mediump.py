@@ -8,7 +8,7 @@ mediump give, and sums and products of it. What has no qualifier is highp: Godot
 import re
 
 NAME = "half_of_phones.gdshaderinc"
-INCLUDE = f'#include "{NAME}"\n'
+INCLUDE = f'#include "res://{NAME}"\n'
 FUNCTIONS = """#ifndef LOBELIGHT_HALF_OF_PHONES
 #define LOBELIGHT_HALF_OF_PHONES
 
@@ -85,7 +85,7 @@ def round_mediump(text, names):
     return INCLUDE + changed
 
 
-def change_of(folder):
-    """change(name, text) for projects.copy_shaders, for the shaders in `folder`."""
-    names = samplers(path.read_text(encoding="utf-8") for path in folder.glob("*.gdshaderinc"))
+def change_of(shaders):
+    """change(name, text) for projects.copy_shaders, for these shaders."""
+    names = samplers(path.read_text(encoding="utf-8") for path in shaders if path.suffix == ".gdshaderinc")
     return lambda _name, text: round_mediump(text, names)

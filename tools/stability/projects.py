@@ -3,8 +3,7 @@
 from probes import ROOT
 
 RUNTIME = "addons/lobelight/runtime"
-SHADERS = f"{RUNTIME}/shaders"
-SCRIPTS = ("canvas_pass.gd", "environment_light.gd", "on_demand.gd", "pyramid.gd")
+SCRIPTS = ("light/environment_light.gd", "on_demand.gd", "pyramid/canvas_pass.gd", "pyramid/pyramid.gd")
 PROJECT = """config_version=5
 
 [application]
@@ -17,6 +16,11 @@ textures/vram_compression/import_etc2_astc=true
 """
 
 
+def shaders():
+    """The shaders of the run time."""
+    return sorted(path for path in (ROOT / RUNTIME).rglob("*.gdshader*") if path.suffix != ".uid")
+
+
 def copy_shaders(project, change, variant=""):
     """What stability.gd needs, below `project`, or below variants/`variant` in it; returns the folder as res://.
 
@@ -25,7 +29,8 @@ def copy_shaders(project, change, variant=""):
     folder = project / "variants" / variant if variant else project
     scripts = [f"{RUNTIME}/{name}" for name in SCRIPTS]
     sources = [ROOT / name for name in scripts]
-    sources += sorted((ROOT / SHADERS).glob("*.gdshader*"))
+    own = shaders()
+    sources += own
     sources += sorted((ROOT / "bake/stability").rglob("*.gd*"))
     for source in sources:
         if source.suffix not in (".gd", ".gdshader", ".gdshaderinc"):
@@ -33,7 +38,7 @@ def copy_shaders(project, change, variant=""):
         target = folder / source.relative_to(ROOT)
         target.parent.mkdir(parents=True, exist_ok=True)
         text = source.read_text(encoding="utf-8").replace("res://", root)
-        if source.parent.name == "shaders":
+        if source in own:
             text = change(source.name, text)
         target.write_text(text, encoding="utf-8")
     if not (project / "project.godot").exists():

@@ -30,7 +30,7 @@ class Views:
 
     def job(self):
         return {
-            "shader": "pyramid_views",
+            "shader": "skies/pyramid_views",
             "width": 3 * self.size,
             "height": 2 * self.size,
             "half": True,
@@ -92,7 +92,7 @@ class Pack:
 
     def job(self):
         return {
-            "shader": "pyramid_pack",
+            "shader": "compatibility/pyramid_pack",
             "width": 2 * self.size,
             "height": self.size,
             "half": False,

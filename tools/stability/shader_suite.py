@@ -100,8 +100,8 @@ def run(quick, records, progress):
         for renderer in RENDERERS:
             draw(renderer, renderer, probes, (passes, pyramids), ROOT, "single")
         rounded = folder / "rounded"
-        projects.copy_shaders(rounded, mediump.change_of(ROOT / projects.SHADERS))
-        (rounded / projects.SHADERS / mediump.NAME).write_text(mediump.FUNCTIONS, encoding="utf-8")
+        projects.copy_shaders(rounded, mediump.change_of(projects.shaders()))
+        (rounded / mediump.NAME).write_text(mediump.FUNCTIONS, encoding="utf-8")
         medium = [probe for probe in probes if probe.has_medium]
         draw(f"{HALF_RENDERER}, mediump as halves", HALF_RENDERER, medium, ([], []), rounded, "half")
     return verdicts

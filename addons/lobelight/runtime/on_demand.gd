@@ -9,6 +9,7 @@ const FILTERS := "the filters Box and Binomial"
 const CONVERSION := "conversion between materials"
 const RENDERING_DEVICE := "the renderers Forward+ and Mobile"
 const COMPATIBILITY := "the renderer Compatibility"
+const PROBES := "probes and several worlds"
 
 # Kept, as what is preloaded is.
 static var _loaded: Dictionary[String, Resource] = {}

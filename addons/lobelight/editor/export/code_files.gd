@@ -3,17 +3,17 @@ extends RefCounted
 ## Which files of the run time an export needs, and how short they can be.
 ##
 ## A script or shader that nothing names, neither the project's files nor a file of the run time
-## that is needed, stays out, and so do files of features that nothing reaches (features.gd) if they
-## are loaded on demand. The shader includes of such features have to be there, because materials
-## preload them, but go along empty. What stays loses its comments; scripts do so by the engine.
+## that is needed, stays out. Folders of features (features.gd) stay or go whole. Of a feature that
+## nothing reaches, shader includes that a script preloads have to be there, and go along empty.
+## What stays loses its comments; scripts do so by the engine.
 
 const Features := preload("features.gd")
 const ProjectFiles := preload("project_files.gd")
 
 const ADDON := "res://addons/lobelight/"
-const RUN_TIME := ADDON + "runtime/"
-const SHADERS := RUN_TIME + "shaders/"
-const TABLE_SET := RUN_TIME + "lobe_table_set.gd"
+const RUN_TIME := Features.RUN_TIME
+const TABLE_SET := RUN_TIME + "table/lobe_table_set.gd"
+const SHADERS: PackedStringArray = ["gdshader", "gdshaderinc"]
 const CODE: PackedStringArray = ["gd", "gdshader", "gdshaderinc"]
 const EMPTY_INCLUDE := "\n"
 # What names others without being resources.
@@ -36,8 +36,11 @@ var files: Dictionary[String, CodeFile] = {}
 
 var _features: Features
 var _classes: Dictionary[String, String] = {}
-# Who needs a file.
+# Who needs a file. Grows at its end while it is gone through.
 var _needed_by: Dictionary[String, String] = {}
+# What scripts that go along preload.
+var _preloaded: Dictionary[String, bool] = {}
+var _preload := RegEx.create_from_string('preload\\("([^"]+)')
 var _named_path := RegEx.create_from_string("[\\w./:]+\\.(gdshaderinc|gdshader|gd|res)\\b")
 var _named_uid := RegEx.create_from_string("uid://\\w+")
 var _word := RegEx.create_from_string("\\b[A-Z]\\w+\\b")
@@ -56,6 +59,7 @@ static func of_files(project_files: PackedStringArray, features: Features) -> Re
 	for file in project_files:
 		if not file.begins_with(ADDON):
 			code._look_at(file)
+	code._follow_all()
 	for path: String in code.files:
 		code._decide(path)
 	return code
@@ -102,13 +106,50 @@ func _look_at(file: String) -> void:
 		_need(path, file)
 
 
+# What is needed, file by file, names more.
+func _follow_all() -> void:
+	# What the project's own files name they reach.
+	for path in _needed_by:
+		if Features.of_file(path):
+			_features.add(Features.of_file(path), _needed_by[path])
+	var next := 0
+	while next < _needed_by.size():
+		var path: String = _needed_by.keys()[next]
+		next += 1
+		if not _is_unreached(path):
+			_need_folder(path)
+			_follow(path)
+
+
+func _need_folder(path: String) -> void:
+	var feature := Features.of_file(path)
+	if feature.is_empty():
+		return
+	for other in files:
+		if Features.of_file(other) == feature:
+			_need(other, _needed_by[path])
+
+
+func _follow(path: String) -> void:
+	var code: PackedStringArray = []
+	for line in FileAccess.get_file_as_string(path).split("\n"):
+		if not line.strip_edges().begins_with("#") or "#include" in line:
+			code.append(line)
+	for found in _preload.search_all("\n".join(code)):
+		_preloaded[_absolute(found.get_string(1), path)] = true
+	_read(path, "\n".join(code))
+
+
+static func _absolute(path: String, file: String) -> String:
+	if path.begins_with("res://"):
+		return path
+	return file.get_base_dir().path_join(path).simplify_path()
+
+
 func _read(file: String, text: String) -> void:
 	var named := false
 	for found in _named_path.search_all(text):
-		var path := found.get_string()
-		if not path.begins_with("res://"):
-			path = file.get_base_dir().path_join(path).simplify_path()
-		named = _need(path, file) or named
+		named = _need(_absolute(found.get_string(), file), file) or named
 	for found in _named_uid.search_all(text):
 		var id := ResourceUID.text_to_id(found.get_string())
 		if id != ResourceUID.INVALID_ID and ResourceUID.has_id(id):
@@ -122,7 +163,7 @@ func _read(file: String, text: String) -> void:
 			_need(path, file)
 
 
-# Whether the path is the addon's. Files that are needed name others.
+# Whether the path is the addon's.
 func _need(path: String, by: String) -> bool:
 	if not path.begins_with(ADDON):
 		return false
@@ -130,43 +171,31 @@ func _need(path: String, by: String) -> bool:
 		path = TABLE_SET
 	if not files.has(path):
 		return false
-	# What the project's own files name is whole, even if the run time has named it before.
-	if _needed_by.has(path) and (by.begins_with(RUN_TIME) or not _is_unreached(path)):
-		return true
-	_needed_by[path] = by
-	if _is_unreached(path):
-		return true
-	var code: PackedStringArray = []
-	for line in FileAccess.get_file_as_string(path).split("\n"):
-		if not line.strip_edges().begins_with("#") or "#include" in line:
-			code.append(line)
-	_read(path, "\n".join(code))
+	if not _needed_by.has(path):
+		_needed_by[path] = by
 	return true
 
 
-# A file of a feature that nothing reaches, unless the project names it itself.
 func _is_unreached(path: String) -> bool:
-	var name := path.trim_prefix(RUN_TIME)
-	if not Features.FILES.has(name) or _features.reached.has(Features.FILES[name]):
-		return false
-	return _needed_by[path].begins_with(RUN_TIME)
+	var feature := Features.of_file(path)
+	return not feature.is_empty() and not _features.reached.has(feature)
 
 
 func _decide(path: String) -> void:
 	var file := files[path]
-	var feature: String = Features.FILES.get(path.trim_prefix(RUN_TIME), "")
+	var feature := Features.of_file(path)
 	file.after = file.before
 	if not _needed_by.has(path):
 		file.after = 0
 		file.why = "nothing names it"
 	elif _is_unreached(path):
 		file.why = "nothing reaches %s" % feature
-		if path.get_extension() == "gdshaderinc":
+		if path.get_extension() == "gdshaderinc" and _preloaded.has(path):
 			file.bytes = EMPTY_INCLUDE.to_utf8_buffer()
 			file.why = "empty, " + file.why
 		else:
 			file.after = 0
-	elif path.begins_with(SHADERS):
+	elif path.get_extension() in SHADERS:
 		file.bytes = strip(FileAccess.get_file_as_string(path)).to_utf8_buffer()
 		file.why = "without comments, for %s" % _features.reached.get(feature, _needed_by[path])
 	else:

@@ -9,22 +9,23 @@ const LobeEnvironment := preload("../../runtime/light/lobe_environment_3d.gd")
 const MaterialShader := preload("../../runtime/material/material_shader.gd")
 const OnDemand := preload("../../runtime/on_demand.gd")
 
+const RUN_TIME := "res://addons/lobelight/runtime/"
 const DECLARATION := "metadata/lobelight_features"
 const COAT := "clear coats"
 const DIFFUSE := "diffuse light"
 const WARNINGS := "warnings, which the editor shows"
 
-## Files below runtime that nothing but the feature needs.
-const FILES: Dictionary[String, String] = {
-	"shaders/clear_coat.gdshaderinc": COAT,
-	"shaders/diffuse.gdshaderinc": DIFFUSE,
-	"shaders/pyramid_reduce.gdshader": OnDemand.FILTERS,
-	"shaders/pyramid_views.gdshader": OnDemand.SKIES,
-	"world_views.gd": OnDemand.SKIES,
-	"material_conversion.gd": OnDemand.CONVERSION,
-	"gpu_cube.gd": OnDemand.RENDERING_DEVICE,
-	"packed_cube.gd": OnDemand.COMPATIBILITY,
-	"environment_warnings.gd": WARNINGS,
+## Folders of the run time that nothing but the feature needs. Each of them stays or goes whole.
+const FOLDERS: Dictionary[String, String] = {
+	"clear_coat": COAT,
+	"compatibility": OnDemand.COMPATIBILITY,
+	"conversion": OnDemand.CONVERSION,
+	"diffuse": DIFFUSE,
+	"filters": OnDemand.FILTERS,
+	"probes": OnDemand.PROBES,
+	"rendering_device": OnDemand.RENDERING_DEVICE,
+	"skies": OnDemand.SKIES,
+	"warnings": WARNINGS,
 }
 # What scripts and animations name where they may ask for it.
 const _WORDS: Dictionary[String, String] = {
@@ -33,6 +34,7 @@ const _WORDS: Dictionary[String, String] = {
 	OnDemand.FILTERS: "filter",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D",
 	OnDemand.CONVERSION: "from_standard|to_standard|get_losses_from",
+	OnDemand.PROBES: "LobeProbe3D|own_world_3d|world_3d",
 }
 const _METHOD := "rendering/renderer/rendering_method"
 const _FALLBACK := "rendering/rendering_device/fallback_to_opengl3"
@@ -54,6 +56,11 @@ var _resizing := RegEx.create_from_string(
 )
 
 
+## The feature that a file belongs to; empty if it goes along without one.
+static func of_file(path: String) -> String:
+	return FOLDERS.get(path.trim_prefix(RUN_TIME).get_slice("/", 0), "")
+
+
 func _init() -> void:
 	for feature in _WORDS:
 		_words[feature] = RegEx.create_from_string("\\b(%s)\\b" % _WORDS[feature])
@@ -62,7 +69,7 @@ func _init() -> void:
 ## For what may set any property.
 func add_all(file: String) -> void:
 	for feature: String in [COAT, DIFFUSE, OnDemand.FILTERS, OnDemand.SKIES]:
-		_add(feature, file)
+		add(feature, file)
 	resizing = "%s may change environments" % file
 
 
@@ -72,23 +79,23 @@ func look_at_renderers() -> void:
 		var setting: String = property["name"]
 		if setting.begins_with(_METHOD):
 			var is_compatibility: bool = ProjectSettings.get_setting(setting) == "gl_compatibility"
-			_add(OnDemand.COMPATIBILITY if is_compatibility else OnDemand.RENDERING_DEVICE, setting)
+			add(OnDemand.COMPATIBILITY if is_compatibility else OnDemand.RENDERING_DEVICE, setting)
 	if ProjectSettings.get_setting(_FALLBACK, true):
-		_add(OnDemand.COMPATIBILITY, _FALLBACK)
+		add(OnDemand.COMPATIBILITY, _FALLBACK)
 
 
 func look_at_material(file: String, material: LobeMaterial3D) -> void:
 	if material.clearcoat > 0.0:
-		_add(COAT, file)
+		add(COAT, file)
 	if MaterialShader.is_dielectric(material):
-		_add(DIFFUSE, file)
+		add(DIFFUSE, file)
 
 
 ## A line of a script, or the path of an animation's track.
 func read_line(file: String, line: String) -> void:
 	for feature in _words:
 		if _words[feature].search(line) != null:
-			_add(feature, file)
+			add(feature, file)
 	if _resizing.search(line) != null:
 		resizing = "%s may change environments" % file
 
@@ -100,7 +107,9 @@ func look_at_node(file: String, properties: Dictionary, is_instance: bool) -> vo
 		read_line(file, ":" + " :".join(PackedStringArray(properties.keys())))
 		return
 	for feature: String in properties.get(DECLARATION, []):
-		_add(feature, file)
+		add(feature, file)
+	if properties.get("own_world_3d", false) or properties.has("world_3d"):
+		add(OnDemand.PROBES, file)
 	var script: Script = properties.get("script") as Script
 	while script != null and script != LobeEnvironment:
 		script = script.get_base_script()
@@ -112,12 +121,13 @@ func look_at_node(file: String, properties: Dictionary, is_instance: bool) -> vo
 	if source == LobeEnvironment3D.Source.AUTOMATIC and has_panorama:
 		source = LobeEnvironment3D.Source.PANORAMA
 	if source != LobeEnvironment3D.Source.PANORAMA:
-		_add(OnDemand.SKIES, file)
+		add(OnDemand.SKIES, file)
 	var filter: int = properties.get("filter", LobeEnvironment3D.Filter.DISC)
 	if filter == LobeEnvironment3D.Filter.BOX or filter == LobeEnvironment3D.Filter.BINOMIAL:
-		_add(OnDemand.FILTERS, file)
+		add(OnDemand.FILTERS, file)
 
 
-func _add(feature: String, file: String) -> void:
+## The feature is reached by a file, or a setting.
+func add(feature: String, file: String) -> void:
 	if not reached.has(feature):
 		reached[feature] = file

@@ -4,8 +4,9 @@ extends RefCounted
 ##
 ## A cube map of S texels a side has 4 S of them around, so that 4 S texels are all that it can show
 ## of a panorama. Finer ones are halved, each texel the mean of four, while that many are left: at
-## least twice S, so that level 0 stays as sharp as it is (runtime/pyramid/pyramid.gd, base_variance). Only
-## panoramas that are seen through the cube map alone: what else shows one may need all of it.
+## least twice S, so that level 0 stays as sharp as it is (runtime/pyramid/pyramid.gd,
+## base_variance). Only panoramas that are seen through the cube map alone: what else shows one may
+## need all of it.
 
 const EnvironmentFit := preload("environment_fit.gd")
 const Features := preload("features.gd")

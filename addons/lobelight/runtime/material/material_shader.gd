@@ -17,7 +17,7 @@ const _FILTERS: PackedStringArray = [
 	"filter_nearest_mipmap_anisotropic",
 	"filter_linear_mipmap_anisotropic",
 ]
-## Lookups of the diffuse light, see shaders/diffuse.gdshaderinc.
+## Lookups of the diffuse light, see diffuse/diffuse.gdshaderinc.
 const DIFFUSE_FETCHES := 6
 
 
