@@ -10,12 +10,11 @@ extends ComparisonMethod
 ## non-linear optimisation.
 
 const ComparisonSphere := preload("comparison_sphere.gd")
-const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 const Microfacet := preload("microfacet.gd")
 
 var lobes: int
 
-var _light: EnvironmentLight
+var _light: LobeLight
 var _filter := ""
 # By lobe: the half-vector and 4 / sharpness; the integral.
 var _lobes := PackedVector4Array()

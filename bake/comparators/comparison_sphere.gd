@@ -1,8 +1,6 @@
 extends RefCounted
 ## The sphere of [SphereImpostor] under another method's shader.
 
-const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
-
 
 ## A quad whose material is the shader include [param path] of this folder, which has a function
 ## [param function] like lobelight_specular, after the lines [param defines]. With [param light] it
@@ -12,7 +10,7 @@ static func make(
 	function: String,
 	defines: PackedStringArray,
 	parameters: Dictionary,
-	light: EnvironmentLight = null
+	light: LobeLight = null
 ) -> MeshInstance3D:
 	var folder := SphereImpostor.FRAGMENT_PATH.get_base_dir()
 	var code := "shader_type spatial;\nrender_mode ambient_light_disabled;\n"

@@ -3,7 +3,6 @@ extends RefCounted
 ## What the methods of one comparison share: the scene tree, the surroundings in the forms that the
 ## methods need, and the options of the command.
 
-const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
 const DualParaboloidMap := preload("dual_paraboloid_map.gd")
 const PrefilteredMap := preload("prefiltered_map.gd")
@@ -39,7 +38,7 @@ var toral_views := Vector2i.ZERO
 var fis_bias := 0.0
 
 var _environment: LobeEnvironment3D
-var _lights: Dictionary[String, EnvironmentLight] = {}
+var _lights: Dictionary[String, LobeLight] = {}
 var _prefiltered: Dictionary[String, PrefilteredMap] = {}
 var _update_costs: Dictionary[String, Dictionary] = {}
 var _map: DualParaboloidMap
@@ -105,13 +104,13 @@ func face_size() -> int:
 
 ## The panorama's pyramid as materials of other kinds need it, made as [LobeEnvironment3D] makes
 ## it; null on failure. [param used_filter] is a key of [constant FILTERS]. To be awaited.
-func light(used_filter: String) -> EnvironmentLight:
+func light(used_filter: String) -> LobeLight:
 	if _lights.has(used_filter):
 		return _lights[used_filter]
 	# The one that lights materials has it already.
 	var is_shared := used_filter == filter and face_size() > 0
 	var environment := _environment if is_shared else _make_environment(used_filter)
-	var made: EnvironmentLight = null
+	var made: LobeLight = null
 	if is_shared or await environment.rebuild():
 		made = _light_of(environment, FILTERS[used_filter] as Pyramid.Filter)
 		_lights[used_filter] = made
@@ -174,8 +173,8 @@ func _make_environment(used_filter: String) -> LobeEnvironment3D:
 	return environment
 
 
-static func _light_of(environment: LobeEnvironment3D, kind: Pyramid.Filter) -> EnvironmentLight:
-	var made := EnvironmentLight.new()
+static func _light_of(environment: LobeEnvironment3D, kind: Pyramid.Filter) -> LobeLight:
+	var made := LobeLight.new()
 	made.cubemap = environment.get_cubemap()
 	made.size = made.cubemap.get_width()
 	made.level_variance = Pyramid.LEVEL_VARIANCES[kind]

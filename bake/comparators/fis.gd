@@ -4,14 +4,13 @@ extends ComparisonMethod
 ## on the project's own pyramid.
 
 const ComparisonSphere := preload("comparison_sphere.gd")
-const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 const Microfacet := preload("microfacet.gd")
 
 var samples: int
 ## Whether on the project's own pyramid.
 var on_own_pyramid := false
 
-var _light: EnvironmentLight
+var _light: LobeLight
 var _filter := ""
 # Added to the level.
 var _bias := 0.0
@@ -80,7 +79,7 @@ func settings() -> Dictionary:
 	return {"pyramid": _filter, "face_size": _light.size, "level_bias": _bias}
 
 
-## Of a pyramid whose levels blur by [param level_variance], see [EnvironmentLight]: what makes the
+## Of a pyramid whose levels blur by [param level_variance], see [LobeLight]: what makes the
 ## published rule, which is for 2 × 2 means, blur as much as it does on those. Level l blurs by
 ## (c + 1/6) 4^l of a texel's solid angle, 1/6 being the sampler's share.
 static func matching_bias(level_variance: float) -> float:

@@ -3,13 +3,12 @@ extends ComparisonMethod
 ## the project's own pyramid, without a table.
 
 const ComparisonSphere := preload("comparison_sphere.gd")
-const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 const LineLobes := preload("line_lobes.gd")
 const Microfacet := preload("microfacet.gd")
 ## Along the longer axis.
 const LOBES := 8
 
-var _light: EnvironmentLight
+var _light: LobeLight
 var _filter := ""
 
 

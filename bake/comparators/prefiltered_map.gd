@@ -2,7 +2,6 @@ extends RefCounted
 ## A cube map whose levels are blurred as surfaces of growing width reflect, see prefilter.gdshader;
 ## made on the GPU in any renderer. It is another one for each BRDF.
 
-const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 const PrefilterShader := preload("prefilter.gdshader")
 const Microfacet := preload("microfacet.gd")
 const _COLUMNS := 3
@@ -24,11 +23,7 @@ var _wall_time := 0.0
 ## The map of [param face_size] texels a side whose level l reflects as a surface of the width
 ## [code]widths[l][/code]; null if nothing was drawn. [param source] has 2 × 2 means. To be awaited.
 static func make(
-	source: EnvironmentLight,
-	brdf: String,
-	widths: PackedFloat64Array,
-	face_size: int,
-	tree: SceneTree
+	source: LobeLight, brdf: String, widths: PackedFloat64Array, face_size: int, tree: SceneTree
 ) -> RefCounted:
 	var viewports: Array[SubViewport] = []
 	for level in widths.size():
@@ -56,7 +51,7 @@ func get_update_cost() -> Dictionary:
 
 
 static func _draw(
-	source: EnvironmentLight, brdf: String, width: float, side: int, tree: SceneTree
+	source: LobeLight, brdf: String, width: float, side: int, tree: SceneTree
 ) -> SubViewport:
 	var material := ShaderMaterial.new()
 	material.shader = PrefilterShader

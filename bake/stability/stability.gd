@@ -7,7 +7,8 @@ extends SceneTree
 ## or bytes; each pyramid's levels NAME.LEVEL.bin, atlases of half floats.
 
 const CanvasPass := preload("res://addons/lobelight/runtime/pyramid/canvas_pass.gd")
-const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
+# By its path: this runs in projects that have not been imported, which know no class names.
+const Light := preload("res://addons/lobelight/runtime/light/lobe_light.gd")
 const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
 const HalvesShader := preload("res://bake/stability/halves.gdshader")
 
@@ -121,8 +122,8 @@ func _get_shader(probe: Dictionary) -> Shader:
 
 
 # The light of a cube map as the run time hands it to materials.
-func _make_light(values: Dictionary) -> EnvironmentLight:
-	var light := EnvironmentLight.new()
+func _make_light(values: Dictionary) -> Light:
+	var light := Light.new()
 	light.cubemap = _textures[values["cube"]]
 	light.size = values["size"]
 	light.level_variance = values["level_variance"]

@@ -17,7 +17,6 @@ const FEATURES: PackedStringArray = [
 	"UV_TRANSFORM",
 	"VERTEX_COLOUR",
 ]
-const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
 const LightRegistry := preload("res://addons/lobelight/runtime/light/light_registry.gd")
 
 
@@ -72,10 +71,10 @@ func test_levels_of_texels_have_a_variant_of_their_own() -> void:
 	assert_str(material.get_shader_code()).not_contains(define)
 	var shader := material._shader
 	for is_even: bool in [false, true]:
-		var light := EnvironmentLight.new()
+		var light := LobeLight.new()
 		light.cubemap = Cubemap.new()
 		light.is_even = is_even
-		LightRegistry.offer(get_instance_id(), light)
+		LightRegistry.offer(get_viewport().find_world_3d(), get_instance_id(), light)
 		await get_tree().process_frame
 		# The material that is there takes the other variant, and new ones have it from the start.
 		assert_bool(material._shader == shader).is_equal(is_even)

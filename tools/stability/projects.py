@@ -3,7 +3,7 @@
 from probes import ROOT
 
 RUNTIME = "addons/lobelight/runtime"
-SCRIPTS = ("light/environment_light.gd", "on_demand.gd", "pyramid/canvas_pass.gd", "pyramid/pyramid.gd")
+SCRIPTS = ("light/lobe_light.gd", "on_demand.gd", "pyramid/canvas_pass.gd", "pyramid/pyramid.gd")
 PROJECT = """config_version=5
 
 [application]

@@ -6,6 +6,7 @@ extends Object
 ## What they are for.
 const SKIES := "light of skies and captures"
 const FILTERS := "the filters Box and Binomial"
+const PLACES := "probes and lights of several worlds"
 const CONVERSION := "conversion between materials"
 const RENDERING_DEVICE := "the renderers Forward+ and Mobile"
 const COMPATIBILITY := "the renderer Compatibility"

@@ -66,8 +66,8 @@ static func level_image(size: int) -> Image:
 
 
 ## A cube map of such levels, blurred as by a filter of [ComparisonStage].
-static func level_light(size: int, filter: String) -> ComparisonStage.EnvironmentLight:
-	var light := ComparisonStage.EnvironmentLight.new()
+static func level_light(size: int, filter: String) -> LobeLight:
+	var light := LobeLight.new()
 	light.cubemap = Cubemap.new()
 	var face := level_image(size)
 	light.cubemap.create_from_images([face, face, face, face, face, face])

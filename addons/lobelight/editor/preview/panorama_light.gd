@@ -3,7 +3,6 @@ extends RefCounted
 ## Makes the light of a panorama in a file, as [LobeEnvironment3D] does, but for previews only: the
 ## edited scene goes on being lit by its own.
 
-const EnvironmentLight := preload("../../runtime/light/environment_light.gd")
 const NativeLibrary := preload("../bake/native_library.gd")
 const Pyramid := preload("../../runtime/pyramid/pyramid.gd")
 
@@ -12,7 +11,7 @@ var error := ""
 
 
 ## The light, once it has been drawn; [code]null[/code], and [member error], if it cannot be made.
-func make(path: String) -> EnvironmentLight:
+func make(path: String) -> LobeLight:
 	error = NativeLibrary.get_problem()
 	if error.is_empty() and not Pyramid.has_renderer():
 		error = "The editor runs without a renderer."
@@ -32,7 +31,7 @@ func make(path: String) -> EnvironmentLight:
 	environment.update_mode = LobeEnvironment3D.UpdateMode.ONCE
 	environment.panorama = ImageTexture.create_from_image(image)
 	var is_made := await environment.rebuild()
-	var light: EnvironmentLight = environment._light if is_made else null
+	var light: LobeLight = environment._light if is_made else null
 	error = environment.get_rebuild_error()
 	environment.free()
 	return light

@@ -3,7 +3,6 @@ extends VBoxContainer
 ## A sphere drawn with a table's lobes, as a game draws it, beside the reference that the library
 ## integrates by brute force, in an environment of choice.
 
-const EnvironmentLight := preload("../../runtime/light/environment_light.gd")
 const FormRow := preload("../bake/form_row.gd")
 const NativeLibrary := preload("../bake/native_library.gd")
 const PanoramaLight := preload("panorama_light.gd")
@@ -21,7 +20,7 @@ var samples := 512
 var _table: LobeTable
 var _brdf := ""
 var _path := ""
-var _light: EnvironmentLight
+var _light: LobeLight
 var _reference: RefCounted
 var _sphere := SphereView.new()
 var _picture := TextureRect.new()

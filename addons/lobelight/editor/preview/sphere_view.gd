@@ -6,7 +6,6 @@ extends TextureRect
 ## Pixels along the side of the picture.
 const SIZE := 128
 
-const EnvironmentLight := preload("../../runtime/light/environment_light.gd")
 const LightRegistry := preload("../../runtime/light/light_registry.gd")
 
 ## What the sphere is made of.
@@ -55,7 +54,7 @@ func _enter_tree() -> void:
 
 
 ## Lights the sphere by a light of its own, rather than by that of the edited scene.
-func set_light(light: EnvironmentLight) -> void:
+func set_light(light: LobeLight) -> void:
 	LightRegistry.remove_material(material_3d.get_rid())
 	light.apply(material_3d.get_rid())
 

@@ -6,8 +6,9 @@ extends RefCounted
 ## A panorama of the node's, the panorama of a sky, views of a sky, views of the scene.
 enum Kind { NONE, PANORAMA, SKY_PANORAMA, SKY_VIEWS, SCENE_VIEWS }
 
-const EnvironmentLight := preload("environment_light.gd")
+const LightSettings := preload("light_settings.gd")
 const LiveTextures := preload("live_textures.gd")
+const FaceViews := preload("../pyramid/face_views.gd")
 const Pyramid := preload("../pyramid/pyramid.gd")
 const PyramidChain := preload("../pyramid/pyramid_chain.gd")
 const WorldLight := preload("world_light.gd")
@@ -18,25 +19,24 @@ const DEFAULT_SIZE := 256
 const _SKY_SAMPLES := 2
 const _SCENE_SAMPLES := 1
 
-var _node: LobeEnvironment3D
+var _settings: LightSettings
 var _kind := Kind.NONE
 # Null while the light is that of the node's own panorama.
 var _world: WorldLight
-# What the last chain was made for.
+# What the last chain was made for, and the light that it gives.
 var _key: Array = []
+var _light: LobeLight
 
 
-func _init(node: LobeEnvironment3D) -> void:
-	_node = node
+func _init(settings: LightSettings) -> void:
+	_settings = settings
 
 
 ## Which part of the run time it would take that this export has left out, in a sentence; empty if
 ## none.
 func find_loss() -> String:
-	var losses: Array[String] = [
-		PyramidChain.find_loss(), Pyramid.find_loss(_node.filter as Pyramid.Filter)
-	]
-	if not _takes_panorama():
+	var losses: Array[String] = [PyramidChain.find_loss(), Pyramid.find_loss(_settings.filter)]
+	if not _settings.takes_panorama():
 		losses.append(WorldLight.find_loss())
 	for loss in losses:
 		if loss:
@@ -46,16 +46,16 @@ func find_loss() -> String:
 
 ## Why there is no light to be had, in a sentence; empty if there is.
 func find_obstacle() -> String:
-	var panorama := _node.panorama
-	if not _takes_panorama() and not _node.is_inside_tree():
-		if _node.source == LobeEnvironment3D.Source.AUTOMATIC:
+	var panorama := _settings.panorama
+	if not _settings.takes_panorama() and not _settings.node.is_inside_tree():
+		if _settings.source == LightSettings.Source.AUTOMATIC:
 			return "There is no panorama, and the node is in no world whose sky it could take."
 		return "The node is in no world whose light it could take."
-	if _takes_panorama() and panorama == null:
+	if _settings.takes_panorama() and panorama == null:
 		return "There is no panorama."
 	if not Pyramid.has_renderer():
 		return "There is no renderer to make the pyramid with: the engine runs headless."
-	if _takes_panorama() and (panorama.get_width() < 1 or panorama.get_height() < 1):
+	if _settings.takes_panorama() and (panorama.get_width() < 1 or panorama.get_height() < 1):
 		return "The panorama is empty."
 	return ""
 
@@ -63,10 +63,10 @@ func find_obstacle() -> String:
 ## Looks at the source as it is now; whether it shows something else than at the last look. A turned
 ## sky panorama or another energy of it shows the same, see [method place].
 func look() -> bool:
-	if _takes_panorama():
+	if _settings.takes_panorama():
 		_world = null
 	elif _world == null:
-		_world = WorldLight.of(_node)
+		_world = WorldLight.of(_settings.node)
 	var kind := _find_kind()
 	var changed := kind != _kind
 	_kind = kind
@@ -82,38 +82,52 @@ func make_chain(chain: PyramidChain) -> PyramidChain:
 	var key := _make_key()
 	if chain != null and key == _key:
 		if chain.views != null:
-			_world.place(chain.views)
+			_place_views(chain.views)
 		return chain
 	_key = key
-	var filter := _node.filter as Pyramid.Filter
+	_light = null
+	var filter := _settings.filter
 	if _kind >= Kind.SKY_VIEWS:
-		var size: int = _node.size if _node.size > 0 else DEFAULT_SIZE
+		var size: int = _settings.size if _settings.size > 0 else DEFAULT_SIZE
 		var samples := _SKY_SAMPLES if _kind == Kind.SKY_VIEWS else _SCENE_SAMPLES
 		var views := _world.make_views(samples, size)
+		_place_views(views)
 		chain = PyramidChain.new(views)
 		chain.pyramid.set_up_views(views.get_textures(), samples, size, filter)
 	else:
 		var panorama := _find_panorama()
-		var size := _node.size if _node.size > 0 else Pyramid.automatic_size(panorama)
+		var size := _settings.size if _settings.size > 0 else Pyramid.automatic_size(panorama)
 		chain = PyramidChain.new()
 		chain.pyramid.set_up_panorama(panorama, size, filter, _kind == Kind.SKY_PANORAMA)
-		if not panorama.changed.is_connected(_node._on_panorama_changed):
-			panorama.changed.connect(_node._on_panorama_changed)
+		if not panorama.changed.is_connected(_settings.on_panorama_changed):
+			panorama.changed.connect(_settings.on_panorama_changed)
 	chain.make_cube()
-	if _node.measure_cost:
+	if _settings.measure_cost:
 		chain.measure()
 	return chain
 
 
+## The light that a chain has made, the same object for every update of the chain.
+func get_light(chain: PyramidChain) -> LobeLight:
+	if _light == null or _light.cubemap != chain.cube.texture:
+		_light = LobeLight.new()
+		_light.cubemap = chain.cube.texture
+		_light.size = chain.pyramid.size
+		_light.level_variance = Pyramid.LEVEL_VARIANCES[chain.pyramid.filter]
+		_light.base_variance = chain.pyramid.level_0_variance
+		_light.is_even = Pyramid.is_round(chain.pyramid.filter)
+	return _light
+
+
 ## Gives a light that was made from this kind of source its rotation and energy; whether they are
 ## others than before.
-func place(light: EnvironmentLight, kind: Kind) -> bool:
-	var energy := _node.energy
+func place(light: LobeLight, kind: Kind) -> bool:
+	var energy := _settings.energy
 	var rotation := light.rotation if kind == Kind.PANORAMA else Basis.IDENTITY
-	if kind == Kind.PANORAMA and _node.is_inside_tree():
-		rotation = _node.global_basis.orthonormalized()
+	if kind == Kind.PANORAMA and _settings.node.is_inside_tree():
+		rotation = _settings.node.global_basis.orthonormalized()
 	elif kind == Kind.SKY_PANORAMA and _world != null:
-		if not _node.is_inside_tree() or _world.find_panorama() == null:
+		if not _settings.node.is_inside_tree() or _world.find_panorama() == null:
 			return false
 		energy *= _world.find_panorama_energy()
 		rotation = _world.find_sky_rotation()
@@ -134,16 +148,10 @@ func leave_world() -> bool:
 	return _kind != Kind.PANORAMA and _kind != Kind.NONE
 
 
-func _takes_panorama() -> bool:
-	if _node.source == LobeEnvironment3D.Source.AUTOMATIC:
-		return _node.panorama != null
-	return _node.source == LobeEnvironment3D.Source.PANORAMA
-
-
 func _find_kind() -> Kind:
-	if _takes_panorama():
+	if _settings.takes_panorama():
 		return Kind.PANORAMA
-	if _node.source == LobeEnvironment3D.Source.CAPTURE:
+	if _settings.source == LightSettings.Source.CAPTURE:
 		return Kind.SCENE_VIEWS
 	# Compatibility takes the colours of skies for sRGB. What comes of that, views show.
 	if _is_compatibility():
@@ -160,17 +168,22 @@ func _get_views() -> WorldLight.Views:
 	return WorldLight.Views.NONE
 
 
+func _place_views(views: FaceViews) -> void:
+	_settings.capture.origin = _settings.node.global_position
+	_world.place(views, _settings.capture)
+
+
 func _find_panorama() -> Texture2D:
-	return _node.panorama if _kind == Kind.PANORAMA else _world.find_panorama()
+	return _settings.panorama if _kind == Kind.PANORAMA else _world.find_panorama()
 
 
 func _make_key() -> Array:
 	if _kind >= Kind.SKY_VIEWS:
-		return [_kind, _node.size, _node.filter, _node.measure_cost]
+		return [_kind, _settings.size, _settings.filter, _settings.measure_cost]
 	var panorama := _find_panorama()
 	var texture := panorama.get_rid() if panorama != null else RID()
 	var width := panorama.get_width() if panorama != null else 0
-	return [_kind, _node.size, _node.filter, _node.measure_cost, texture, width]
+	return [_kind, _settings.size, _settings.filter, _settings.measure_cost, texture, width]
 
 
 static func _is_compatibility() -> bool:

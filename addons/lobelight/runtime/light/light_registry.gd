@@ -1,76 +1,185 @@
 @tool
 extends Object
-## Brings the environment's light to the materials.
+## Brings the lights of the worlds to the materials.
 ##
-## Materials belong to no world, so all of them show the same light: the one that was offered last,
-## the neutral light while there is none. They are known by their RIDs; nothing is kept alive.
+## Materials belong to no world. While there is one light in all, they show it, and the neutral one
+## while there is none. With probes, with lights in several worlds, and while one light fades into
+## another, the shader finds the light of each pixel (probes/placed_lights.gd). Materials are known
+## by their RIDs; nothing is kept alive.
 
-const EnvironmentLight := preload("environment_light.gd")
+const LightWorld := preload("light_world.gd")
 const NeutralLight := preload("neutral_light.gd")
+const OnDemand := preload("../on_demand.gd")
+
+const _PLACED := "res://addons/lobelight/runtime/probes/placed_lights.gd"
 
 # Resources may be created and freed on loader threads.
 static var _mutex := Mutex.new()
 # What asks each of them for another variant of its shader; this keeps no material alive either.
 static var _materials: Dictionary[RID, Callable] = {}
-# By the instance id of who offers it, in the order of the offers.
-static var _lights: Dictionary[int, EnvironmentLight] = {}
+# Lights that materials were given, for which those of the worlds do not count.
+static var _own: Dictionary[RID, LobeLight] = {}
+# By their scenarios, in the order in which they came.
+static var _worlds: Dictionary[RID, LightWorld] = {}
 # Made when the first material comes, dropped with the last one.
-static var _neutral: EnvironmentLight
-static var _has_stretched_levels := false
+static var _neutral: LobeLight
+# What materials show: one light, or the lights of all places.
+static var _shown: LobeLight
+static var _placed: RefCounted
+static var _placed_script: GDScript
+static var _defines: PackedStringArray = []
 # Whether what is kept here is dropped when the game ends.
 static var _is_watched := false
+static var _is_aging := false
 
 
-## Whether shaders need LOBELIGHT_STRETCHED_LEVELS for the current light.
-static func has_stretched_levels() -> bool:
-	return _has_stretched_levels
+## The #defines that shaders need for the current lights, without LOBELIGHT_.
+static func get_defines(material: RID) -> PackedStringArray:
+	_mutex.lock()
+	var own: LobeLight = _own.get(material)
+	var defines := _defines.duplicate()
+	_mutex.unlock()
+	return defines if own == null else _defines_of(own)
 
 
-## From now on the material shows the current light. [param other_variant] is called when
-## [method has_stretched_levels] has changed.
+## From now on the material shows the light of where it is. [param other_variant] is called when
+## [method get_defines] has changed.
 static func add_material(material: RID, other_variant: Callable) -> void:
 	_mutex.lock()
 	_watch()
 	_materials[material] = other_variant
-	_current().apply(material)
+	_apply(material)
 	_mutex.unlock()
 
 
 static func remove_material(material: RID) -> void:
 	_mutex.lock()
 	_materials.erase(material)
+	_own.erase(material)
 	if _materials.is_empty():
 		_neutral = null
+		if _worlds.is_empty():
+			_shown = null
 	_mutex.unlock()
 
 
-## Makes a light the current one, or replaces the one that the same owner offered before.
-## Whether there are offers of others.
-static func offer(owner: int, light: EnvironmentLight) -> bool:
+## Gives a material a light of its own; with [code]null[/code] it shows that of its place again.
+static func set_own_light(material: RID, light: LobeLight) -> void:
+	_mutex.lock()
+	if light != null:
+		_own[material] = light
+	else:
+		_own.erase(material)
+	if _materials.has(material):
+		_apply(material)
+		_ask_for_variant(material)
+	_mutex.unlock()
+
+
+## An environment of a world is about to make its first light: until it comes, the old one stays.
+static func expect(world: World3D, owner: int) -> void:
+	_mutex.lock()
+	_get_world(world).pending[owner] = true
+	_mutex.unlock()
+
+
+## Makes a light the current one of a world, or replaces the one that the same owner offered before;
+## it fades in over some [param seconds].
+static func offer(world: World3D, owner: int, light: LobeLight, seconds := 0.0) -> void:
+	if seconds > 0.0 or has_other_worlds(world):
+		_load_places()
 	_mutex.lock()
 	_watch()
-	_lights[owner] = light
-	var has_others := _lights.size() > 1
-	_apply_to_all()
+	_get_world(world).offer(owner, light, seconds)
+	_refresh()
 	_mutex.unlock()
-	return has_others
 
 
-## Hands on an offered light's rotation and energy after they have changed.
-static func update_placement(owner: int) -> void:
+## Gives a probe's light to a world, or replaces it.
+static func add_probe(world: World3D, owner: int, light: LobeLight) -> void:
+	_load_places()
 	_mutex.lock()
-	if _lights.has(owner) and _current() == _lights[owner]:
-		for material: RID in _materials:
-			_lights[owner].apply_placement(material)
+	_watch()
+	_get_world(world).probes[owner] = light
+	_refresh()
 	_mutex.unlock()
 
 
-## Takes an offer back; the light offered before it is the current one again.
+## Lights have other places, or a probe's has been drawn: looks anew at what materials are to show.
+static func refresh() -> void:
+	_mutex.lock()
+	_refresh()
+	_mutex.unlock()
+
+
+## Hands on a light's rotation, energy and box after they have changed.
+static func update_placement(light: LobeLight) -> void:
+	_mutex.lock()
+	if _placed != null:
+		_placed.mark_moved()
+	elif light == _shown:
+		for material: RID in _materials:
+			if not _own.has(material):
+				light.apply_placement(material)
+	for material: RID in _own:
+		if _own[material] == light and _materials.has(material):
+			light.apply_placement(material)
+	_mutex.unlock()
+
+
+## Takes back what an environment or a probe has offered or announced, in all worlds.
 static func withdraw(owner: int) -> void:
 	_mutex.lock()
-	if _lights.erase(owner):
-		_apply_to_all()
+	var changed := false
+	for scenario: RID in _worlds.keys():
+		var world := _worlds[scenario]
+		changed = world.withdraw(owner) or changed
+		changed = world.probes.erase(owner) or changed
+		world.pending.erase(owner)
+		if world.is_empty():
+			_worlds.erase(scenario)
+	if changed:
+		_refresh()
 	_mutex.unlock()
+
+
+## What finds the light of each pixel; null while there is one light for all.
+static func get_placed() -> RefCounted:
+	return _placed
+
+
+## Why lights cannot be told by their places in this export; empty if they can.
+static func find_loss() -> String:
+	return OnDemand.find_loss(_PLACED, OnDemand.PLACES)
+
+
+# Not under the lock: scripts load others, and who loads may wait for other threads, and these for
+# the lock.
+static func _load_places() -> void:
+	if _placed_script == null:
+		_placed_script = OnDemand.fetch(_PLACED, OnDemand.PLACES) as GDScript
+
+
+## Whether an environment other than [param owner] lights a world, or has until now.
+static func is_lit_by_other(world: World3D, owner: int) -> bool:
+	_mutex.lock()
+	var found := _worlds.has(world.scenario) and _worlds[world.scenario].is_lit_by_other(owner)
+	_mutex.unlock()
+	return found
+
+
+## Whether there is light in another world.
+static func has_other_worlds(world: World3D) -> bool:
+	_mutex.lock()
+	var others := _worlds.keys().any(func(key: RID) -> bool: return key != world.scenario)
+	_mutex.unlock()
+	return others
+
+
+static func _get_world(world: World3D) -> LightWorld:
+	if not _worlds.has(world.scenario):
+		_worlds[world.scenario] = LightWorld.new(world)
+	return _worlds[world.scenario]
 
 
 # What scripts keep in static variables outlives the tree, and a lambda whose object dies after
@@ -87,28 +196,117 @@ static func _forget() -> void:
 	_mutex.lock()
 	_is_watched = false
 	_materials.clear()
-	_lights.clear()
+	_own.clear()
+	_worlds.clear()
 	_neutral = null
+	_shown = null
+	_end_places()
+	_placed_script = null
+	if _is_aging:
+		RenderingServer.frame_post_draw.disconnect(_age)
+	_is_aging = false
 	_mutex.unlock()
 
 
-static func _current() -> EnvironmentLight:
-	if not _lights.is_empty():
-		return _lights.values().back()
+# The worlds that have a light, in the order in which they came.
+static func _find_lit() -> Array[LightWorld]:
+	var lit: Array[LightWorld] = []
+	for scenario: RID in _worlds.keys():
+		var world := _worlds[scenario]
+		if world.has_gone():
+			_worlds.erase(scenario)
+			continue
+		if world.get_light() != null or not world.probes.is_empty():
+			lit.append(world)
+	return lit
+
+
+# Looks anew at what materials are to show.
+static func _refresh() -> void:
+	var lit := _find_lit()
+	var places := lit.size()
+	for world in lit:
+		places += world.probes.size() + int(world.faded != null)
+	var before := _placed
+	var has_places := places > 1 or (places == 1 and lit[0].get_light() == null)
+	if has_places and _placed_script != null:
+		if _placed == null:
+			_placed = _placed_script.new()
+		_placed.show(_worlds, _get_neutral())
+	else:
+		_end_places()
+	_shown = null
+	if _placed == null:
+		_shown = lit.back().get_light() if not lit.is_empty() else null
+	if _shown == null:
+		_shown = _get_neutral()
+	var defines: PackedStringArray = (
+		_placed.get_defines() if _placed != null else _defines_of(_shown)
+	)
+	var has_changed := defines != _defines
+	_defines = defines
+	if _placed == null or _placed != before or _placed.has_other_textures():
+		for material: RID in _materials:
+			_apply(material)
+	if has_changed:
+		for material: RID in _materials:
+			_ask_for_variant(material)
+	_start_aging()
+
+
+static func _end_places() -> void:
+	if _placed != null:
+		_placed.end()
+	_placed = null
+
+
+static func _get_neutral() -> LobeLight:
 	if _neutral == null:
 		_neutral = NeutralLight.make()
 	return _neutral
 
 
-static func _apply_to_all() -> void:
-	if _materials.is_empty() and _lights.is_empty():
-		_has_stretched_levels = false
-		return
-	var light := _current()
-	var has_changed := _has_stretched_levels == light.is_even
-	_has_stretched_levels = not light.is_even
-	for material: RID in _materials:
-		light.apply(material)
-		# The object may have gone without having said so.
-		if has_changed and _materials[material].is_valid():
-			_materials[material].call_deferred()
+static func _apply(material: RID) -> void:
+	if _own.has(material):
+		_own[material].apply(material)
+	elif _placed != null:
+		_placed.apply(material)
+	else:
+		if _shown == null:
+			_shown = _get_neutral()
+		_shown.apply(material)
+
+
+static func _ask_for_variant(material: RID) -> void:
+	# The object may have gone without having said so.
+	if _materials[material].is_valid():
+		_materials[material].call_deferred()
+
+
+static func _defines_of(light: LobeLight) -> PackedStringArray:
+	return PackedStringArray() if light.is_even else PackedStringArray(["STRETCHED_LEVELS"])
+
+
+# Lights that go or fade do so by frames; nothing is called while none does.
+static func _start_aging() -> void:
+	var ages := _worlds.values().any(func(world: LightWorld) -> bool: return world.is_aging())
+	if ages and not _is_aging:
+		RenderingServer.frame_post_draw.connect(_age)
+	elif not ages and _is_aging:
+		RenderingServer.frame_post_draw.disconnect(_age)
+	_is_aging = ages
+
+
+static func _age() -> void:
+	_mutex.lock()
+	var seconds := (Engine.get_main_loop() as SceneTree).root.get_process_delta_time()
+	var changed := false
+	for scenario: RID in _worlds.keys():
+		changed = _worlds[scenario].age(seconds) or changed
+		if _worlds[scenario].is_empty():
+			_worlds.erase(scenario)
+	if changed:
+		_refresh()
+	else:
+		_start_aging()
+	_mutex.unlock()

@@ -25,8 +25,10 @@ extends Node3D
 ## ([code]./dev bench runtime[/code]); [member update_gpu_time] and
 ## [member update_cpu_time] tell for yours. Updates allocate nothing on the GPU.
 ## [br][br]
-## There is to be one per [World3D]; a second one waits until the first has left. Materials do not
-## know worlds: with several worlds, all are lit by the environment that came last.
+## There is to be one per [World3D]; a second one waits until the first has left. Hidden and waiting
+## nodes make nothing. Each world shows its own light, up to eight of them, of which materials get
+## those of four; see [LobeProbe3D] for the light of rooms. When the node leaves, its light stays until
+## that of the next one has been made; [member fade_time] has one fade into the other.
 
 ## The pyramid has been made anew and the materials have it.
 signal rebuilt
@@ -81,9 +83,10 @@ enum Filter {
 	DISC,
 }
 
-const EnvironmentLight := preload("environment_light.gd")
 const EnvironmentSource := preload("environment_source.gd")
+const FrameWait := preload("frame_wait.gd")
 const LightRegistry := preload("light_registry.gd")
+const LightSettings := preload("light_settings.gd")
 const Pyramid := preload("../pyramid/pyramid.gd")
 const PyramidChain := preload("../pyramid/pyramid_chain.gd")
 
@@ -102,6 +105,7 @@ static var _arrivals := 0
 @export var source := Source.AUTOMATIC:
 	set(value):
 		source = value
+		_settings.source = value as LightSettings.Source
 		_mark_stale()
 		notify_property_list_changed()
 		update_configuration_warnings()
@@ -121,6 +125,7 @@ static var _arrivals := 0
 		if panorama != null:
 			panorama.changed.disconnect(_on_panorama_changed)
 		panorama = value
+		_settings.panorama = value
 		# A sky may have the same one.
 		if panorama != null and not panorama.changed.is_connected(_on_panorama_changed):
 			panorama.changed.connect(_on_panorama_changed)
@@ -130,6 +135,7 @@ static var _arrivals := 0
 @export var filter := Filter.DISC:
 	set(value):
 		filter = value
+		_settings.filter = value as Pyramid.Filter
 		_mark_stale()
 ## Texels along the side of the cube map's faces. Automatic is 256, and for panoramas their width,
 ## rounded up to a power of two, at most 512, which takes 17 MB. Half the size takes a quarter of
@@ -141,32 +147,44 @@ static var _arrivals := 0
 var size := 0:
 	set(value):
 		size = 0 if value <= 0 else clampi(nearest_po2(value), Pyramid.MIN_SIZE, Pyramid.MAX_SIZE)
+		_settings.size = size
 		_mark_stale()
 		update_configuration_warnings()
 ## A factor for the light.
 @export_range(0.0, 16.0, 0.01, "or_greater") var energy := 1.0:
 	set(value):
 		energy = value if is_finite(value) and value > 0.0 else 0.0
+		_settings.energy = energy
 		_update_placement()
 		update_configuration_warnings()
+
+## Seconds in which a new light takes the place of the one before, when this node becomes the one
+## that lights its world, or its source changes; 0 changes it at once. While lights fade, materials
+## draw both.
+@export_range(0.0, 10.0, 0.05, "or_greater", "suffix:s") var fade_time := 0.0:
+	set(value):
+		fade_time = maxf(value, 0.0) if is_finite(value) else 0.0
 
 @export_group("Capture", "capture_")
 ## Layers of the scene that are captured.
 @export_flags_3d_render var capture_cull_mask := 0xFFFFF:
 	set(value):
 		capture_cull_mask = value
+		_settings.capture.cull_mask = value
 		_mark_stale()
 		update_configuration_warnings()
 ## What is nearer than this along the axes is not captured, in metres.
 @export_range(0.001, 10.0, 0.001, "or_greater", "suffix:m") var capture_near := 0.05:
 	set(value):
 		capture_near = maxf(value, 0.001) if is_finite(value) else 0.05
+		_settings.capture.near = capture_near
 		_mark_stale()
 		update_configuration_warnings()
 ## What is farther than this along the axes is not captured, in metres.
 @export_range(0.01, 4000.0, 0.01, "or_greater", "suffix:m") var capture_far := 1000.0:
 	set(value):
 		capture_far = maxf(value, 0.01) if is_finite(value) else 1000.0
+		_settings.capture.far = capture_far
 		_mark_stale()
 		update_configuration_warnings()
 
@@ -176,6 +194,7 @@ var size := 0:
 @export var measure_cost := false:
 	set(value):
 		measure_cost = value
+		_settings.measure_cost = value
 		_mark_stale()
 ## Milliseconds of the GPU for an update, some frames late, without the copies into the cube map;
 ## 0 if it is not measured. An update that is spread over frames takes it in all.
@@ -195,17 +214,19 @@ var size := 0:
 		return _frames
 
 var _arrival := 0
-var _light: EnvironmentLight
+var _light: LobeLight
 var _error := ""
 # Whether the light is older than the properties.
 var _stale := true
-var _source := EnvironmentSource.new(self)
+var _settings := LightSettings.new()
+var _source := EnvironmentSource.new(_settings)
 var _chain: PyramidChain
 # Of the update under way: whether there is one, which slice comes next, and whether it is drawn.
 var _running := false
 var _slice := _WHOLE
 var _drawn := false
 var _idle := 0
+var _waits: Array[FrameWait] = []
 # Captures that are still to follow, and whether materials have shown no light but the node's
 # captures since these began without any; whether they show none at the moment.
 var _echoes := 0
@@ -214,8 +235,6 @@ var _in_the_dark := false
 # Whether the node lights its world, and from what its light was made.
 var _active := false
 var _light_kind := EnvironmentSource.Kind.NONE
-# Whether it has been said that materials belong to all worlds.
-var _warned := false
 # What the last update cost.
 var _gpu_time := 0.0
 var _cpu_time := 0.0
@@ -224,6 +243,8 @@ var _frames := 0
 
 func _init() -> void:
 	set_notify_transform(true)
+	_settings.node = self
+	_settings.on_panorama_changed = _on_panorama_changed
 	# Servers load scenes without a renderer and need no light.
 	if Pyramid.has_renderer():
 		RenderingServer.frame_pre_draw.connect(_on_frame_pre_draw)
@@ -258,6 +279,10 @@ func _notification(what: int) -> void:
 				_mark_stale()
 		NOTIFICATION_PREDELETE:
 			LightRegistry.withdraw(get_instance_id())
+			_running = false
+			_light = null
+			for wait: FrameWait in _waits.duplicate():
+				wait.go_on()
 
 
 func _validate_property(property: Dictionary) -> void:
@@ -310,11 +335,30 @@ func get_rebuild_error() -> String:
 func rebuild() -> bool:
 	if not _begin(_WHOLE):
 		return false
-	# Not for the node's own signal, so that the caller may free it then. A later call may start the
-	# update anew; its result is this one's too.
+	return await _wait()
+
+
+# Until the update has ended. A later call may start it anew; its result is this one's too. What is
+# awaited is not the node's own, so that the caller may free the node then.
+func _wait() -> bool:
+	var wait := FrameWait.new()
+	_waits.append(wait)
 	while _running:
-		await RenderingServer.frame_post_draw
-	return _light != null
+		if FrameWait.is_rendering_paused():
+			_stop()
+			_stale = true
+			_error = "Rendering is paused, so nothing is drawn."
+			break
+		await wait.went_on
+	_waits.erase(wait)
+	return _light != null and not FrameWait.is_rendering_paused()
+
+
+# Ends an update under way without a light of its own.
+func _stop() -> void:
+	if _running:
+		_running = false
+		rebuild_finished.emit()
 
 
 func _mark_stale() -> void:
@@ -329,7 +373,8 @@ func _on_panorama_changed() -> void:
 
 # All the frame's changes have been made by now.
 func _on_frame_pre_draw() -> void:
-	if is_inside_tree() and not _running:
+	# Hidden nodes, and those that wait for another one to leave, make nothing.
+	if _active and not _running:
 		_start_if_due()
 	if _running:
 		_chain.draw(_slice)
@@ -345,7 +390,7 @@ func _on_frame_pre_draw() -> void:
 func _start_if_due() -> void:
 	if not _stale:
 		# Without a light there is something in the way, which only a property can change.
-		if _light == null or not _active:
+		if _light == null:
 			return
 		if _echoes > 0:
 			var changed := update_mode == UpdateMode.WHEN_CHANGED and _source.look()
@@ -392,17 +437,20 @@ func _begin(slice: int) -> bool:
 	return true
 
 
-# What materials show before the node's first capture is no light of the scene's.
+# What materials show before the node's first capture is no light of the scene's, unless another
+# environment has lit it until now: that one stays, so that nothing flashes.
 func _prepare_capture() -> void:
 	var captures := _source.get_kind() == EnvironmentSource.Kind.SCENE_VIEWS
 	_echoes = _ECHOES if captures and not _is_live() else 0
 	_lit_by_itself = _lit_by_itself and captures
 	if captures and _active and not _lit_by_itself:
 		_lit_by_itself = true
-		_in_the_dark = true
 		_slice = _WHOLE
+		if LightRegistry.is_lit_by_other(get_world_3d(), get_instance_id()):
+			return
+		_in_the_dark = true
 		var is_even := Pyramid.is_round(filter as Pyramid.Filter)
-		LightRegistry.offer(get_instance_id(), EnvironmentLight.make_dark(is_even))
+		LightRegistry.offer(get_world_3d(), get_instance_id(), LobeLight.make_dark(is_even))
 
 
 func _is_live() -> bool:
@@ -429,10 +477,10 @@ func _on_frame_post_draw() -> void:
 	_cpu_time = _chain.transfer_time
 	_light_kind = _source.get_kind()
 	_lit_by_itself = _lit_by_itself and _active
-	_set_light(_chain.get_light())
+	_set_light(_source.get_light(_chain))
 
 
-func _set_light(light: EnvironmentLight) -> void:
+func _set_light(light: LobeLight) -> void:
 	var is_other := light != _light
 	_light = light
 	_lit_by_itself = _lit_by_itself and light != null
@@ -455,9 +503,7 @@ func _leave_world() -> void:
 	if _source.leave_world():
 		_stale = true
 		_chain = null
-		if _running:
-			_running = false
-			rebuild_finished.emit()
+		_stop()
 
 
 # Offers the light, or takes it back, as it is the node's turn or not.
@@ -471,22 +517,18 @@ func _check_in() -> void:
 		_stale = true
 	if not _active or _light == null and not _in_the_dark:
 		LightRegistry.withdraw(get_instance_id())
+		# The old light stays until this one has been made.
+		if _active and _stale and _source.find_obstacle().is_empty():
+			LightRegistry.expect(get_world_3d(), get_instance_id())
 		return
 	if _in_the_dark:
 		return
-	if LightRegistry.offer(get_instance_id(), _light) and not _warned:
-		_warned = true
-		push_warning(
-			(
-				"LobeEnvironment3D: another world has one as well; LobeMaterial3Ds in all worlds are"
-				+ " lit by the one that came last."
-			)
-		)
+	LightRegistry.offer(get_world_3d(), get_instance_id(), _light, fade_time)
 
 
 func _update_placement() -> void:
 	if _light != null and _source.place(_light, _light_kind):
-		LightRegistry.update_placement(get_instance_id())
+		LightRegistry.update_placement(_light)
 
 
 # The other environments of the same world.

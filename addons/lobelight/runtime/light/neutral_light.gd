@@ -3,8 +3,6 @@ extends RefCounted
 ## What materials reflect where no environment has been set up: a bright ceiling with one soft
 ## light, a grey horizon and a dark floor.
 
-const EnvironmentLight := preload("environment_light.gd")
-
 const SIZE := 16
 const CEILING := Color(0.9, 0.95, 1.0)
 const HORIZON := Color(0.45, 0.45, 0.47)
@@ -15,8 +13,8 @@ const LAMP := Color(3.0, 2.9, 2.7)
 const LAMP_SHARPNESS := 24.0
 
 
-static func make() -> EnvironmentLight:
-	var light := EnvironmentLight.new()
+static func make() -> LobeLight:
+	var light := LobeLight.new()
 	light.cubemap = Cubemap.new()
 	var faces: Array[Image] = []
 	for face in 6:

@@ -8,12 +8,13 @@ extends RefCounted
 enum Views { NONE, SKY, SCENE }
 
 const FaceViews := preload("../pyramid/face_views.gd")
+const ViewPlace := preload("view_place.gd")
 const OnDemand := preload("../on_demand.gd")
 const _PATH := "res://addons/lobelight/runtime/skies/world_views.gd"
 
 
 ## The light of a node's world; null, and an error, if the export has left it out.
-static func of(node: LobeEnvironment3D) -> RefCounted:
+static func of(node: Node3D) -> RefCounted:
 	var script := OnDemand.fetch(_PATH, OnDemand.SKIES) as GDScript
 	return script.new(node) if script != null else null
 
@@ -38,5 +39,6 @@ static func find_loss() -> String:
 ## Views of what was looked at, of [param samples] times [param face_size] pixels a side.
 @abstract func make_views(samples: int, face_size: int) -> FaceViews
 
-## Puts views that were made here to where they belong now.
-@abstract func place(views: FaceViews) -> void
+## Has views show what was looked at last: a scene from some place, or the sky from the camera's.
+## They may have been made for another node of the same world.
+@abstract func place(views: FaceViews, place: ViewPlace) -> void

@@ -93,8 +93,7 @@ static func _defines(material: LobeMaterial3D, choice: TableChoice) -> PackedStr
 		defines.append("COMPENSATED")
 	if is_dielectric(material):
 		defines.append("DIELECTRIC")
-	if LightRegistry.has_stretched_levels():
-		defines.append("STRETCHED_LEVELS")
+	defines.append_array(LightRegistry.get_defines(material.get_rid()))
 	if choice.coat != null:
 		defines.append("COAT_LOBES %d" % choice.coat.lobe_count)
 	if emits(material):

@@ -115,25 +115,57 @@ var size := Vector3(_DEFAULT_SIZE, _DEFAULT_SIZE, _DEFAULT_SIZE):
 		update_configuration_warnings()
 ## A light that was baked, by [i]Bake Light[/i] in the inspector. The probe shows it instead of
 ## captures, from the first frame on.
-@export var light: Resource:
+@export var light: LobeLight:
 	set(value):
 		light = value
+		_show_baked()
 		_mark_stale()
 		_update_placement()
 		notify_property_list_changed()
 		update_configuration_warnings()
 
+const FrameWait := preload("../light/frame_wait.gd")
+const LightRegistry := preload("../light/light_registry.gd")
+const Pyramid := preload("../pyramid/pyramid.gd")
+const ProbeCapture := preload("probe_capture.gd")
+const ProbeSchedule := preload("probe_schedule.gd")
+const ProbeView := preload("probe_view.gd")
+const WorldLight := preload("../light/world_light.gd")
+# Captures after that of a change, each of which brings one more reflection between materials.
+const _ECHOES := 2
+
 var _error := ""
+var _view := ProbeView.new()
+# Whether the light belongs to a world, and whether a capture has been asked for.
+var _is_shown := false
+var _is_awaited := false
+var _is_captured := false
+var _waits: Array[FrameWait] = []
 
 
 func _init() -> void:
 	# The box is of metres, as that of a ReflectionProbe is.
 	set_disable_scale(true)
 	set_notify_transform(true)
+	_view.on_end = _on_captured
 
 
 func _notification(what: int) -> void:
 	match what:
+		NOTIFICATION_ENTER_WORLD:
+			_view.node = self
+			_view.world = WorldLight.of(self) if light == null else null
+			_update_shown()
+		NOTIFICATION_EXIT_WORLD:
+			_leave()
+			_view.node = null
+			_view.world = null
+		NOTIFICATION_VISIBILITY_CHANGED:
+			_update_shown()
+		NOTIFICATION_PREDELETE:
+			_leave()
+			for wait: FrameWait in _waits.duplicate():
+				wait.go_on()
 		NOTIFICATION_TRANSFORM_CHANGED:
 			_update_placement()
 			if update_mode == UpdateMode.WHEN_CHANGED:
@@ -166,13 +198,128 @@ func get_rebuild_error() -> String:
 	return _error
 
 
-## Captures the room anew. Changing a property does so by itself; call it when the scene has
-## changed. It takes until the end of a frame: [code]await probe.rebuild()[/code] gives false if it
-## could not be done, with the reason in [method get_rebuild_error].
+## Captures the room anew, with the reflections between its materials, each capture in one frame.
+## Changing a property does so by itself, spread over frames; call it when the scene has changed.
+## [code]await probe.rebuild()[/code] gives false if it could not be done, with the reason in
+## [method get_rebuild_error]. A baked [member light] is shown again when the node is loaded anew.
 func rebuild() -> bool:
-	_error = "Rooms cannot be captured yet."
+	_error = _find_obstacle()
+	if _error:
+		rebuild_finished.emit()
+		return false
+	_ask_for_capture(true)
+	var wait := FrameWait.new()
+	_waits.append(wait)
+	while _is_awaited:
+		if FrameWait.is_rendering_paused():
+			ProbeSchedule.drop(_view)
+			_is_awaited = false
+			_error = "Rendering is paused, so nothing is drawn."
+			rebuild_finished.emit()
+			break
+		await wait.went_on
+	_waits.erase(wait)
+	return _error.is_empty() and _is_shown
+
+
+## The light that the probe shows, with its faces, so that it can be saved and given to
+## [member light]; [code]null[/code] if there is none yet.
+func get_light() -> LobeLight:
+	var placed := LightRegistry.get_placed()
+	if not _is_shown or placed == null:
+		return null
+	var faces: Array[Image] = placed.get_store().read(_view.light)
+	if faces.is_empty():
+		return null
+	var stored := LobeLight.new()
+	stored.faces = faces
+	stored.size = faces[0].get_width()
+	stored.level_variance = _view.light.level_variance
+	stored.base_variance = _view.light.base_variance
+	stored.is_even = _view.light.is_even
+	return stored
+
+
+# Why there is nothing to capture, in a sentence; empty if there is.
+func _find_obstacle() -> String:
+	if not is_inside_tree():
+		return "The probe is in no world that it could capture."
+	if not is_visible_in_tree():
+		return "The probe is hidden, so it gives no light."
+	if not Pyramid.has_renderer():
+		return "There is no renderer to capture the room with: the engine runs headless."
+	return ProbeCapture.find_loss()
+
+
+# Belongs to its world's lights or not, as it is visible or not.
+func _update_shown() -> void:
+	var shown := is_inside_tree() and is_visible_in_tree() and Pyramid.has_renderer()
+	if shown and not _is_shown:
+		_is_shown = true
+		_update_placement()
+		LightRegistry.add_probe(get_world_3d(), get_instance_id(), _view.light)
+		_mark_stale()
+	elif not shown:
+		_leave()
+
+
+func _leave() -> void:
+	ProbeSchedule.drop(_view)
+	_is_awaited = false
+	if _is_shown:
+		_is_shown = false
+		_is_captured = false
+		LightRegistry.withdraw(get_instance_id())
+
+
+func _ask_for_capture(urgent: bool) -> void:
+	if _view.world == null:
+		_view.world = WorldLight.of(self)
+	if _view.world == null:
+		return
+	_is_awaited = true
+	_view.echoes = 0 if _is_live() else _ECHOES
+	_view.place.cull_mask = cull_mask
+	_view.place.far = _get_reach()
+	_view.place.sees_background = not interior
+	ProbeSchedule.request(_view, urgent)
+
+
+func _is_live() -> bool:
+	return update_mode == UpdateMode.EVERY_FRAME or update_mode == UpdateMode.TIME_SLICED
+
+
+func _on_captured(succeeded: bool) -> void:
+	_is_awaited = false
+	_error = "" if succeeded else "The renderer did not draw the room."
+	if succeeded:
+		_is_captured = true
+		rebuilt.emit()
+	else:
+		push_warning("LobeProbe3D: " + _error)
 	rebuild_finished.emit()
-	return false
+	if succeeded and _is_shown and light == null and _is_live():
+		_ask_for_capture(update_mode == UpdateMode.EVERY_FRAME)
+
+
+# Takes the faces of the baked light, which other probes may have as well, each at its own place.
+func _show_baked() -> void:
+	var before := _view.light
+	_view.light = LobeLight.new()
+	if light != null:
+		var problem := light.get_problem()
+		if problem:
+			push_error("LobeProbe3D: %s: %s" % [light.resource_path, problem])
+		else:
+			_view.light.faces = light.faces
+			_view.light.size = light.size
+			_view.light.level_variance = light.level_variance
+			_view.light.base_variance = light.base_variance
+			_view.light.is_even = light.is_even
+	_view.light.box_size = before.box_size
+	if _is_shown:
+		_update_placement()
+		LightRegistry.add_probe(get_world_3d(), get_instance_id(), _view.light)
 
 
 # How far the views of a capture reach: to the box's farthest corner at least, so that no wall at a
@@ -183,12 +330,24 @@ func _get_reach() -> float:
 
 # What a capture would show is another from now on.
 func _mark_stale() -> void:
-	pass
+	if _is_shown and light == null and _find_obstacle().is_empty():
+		_ask_for_capture(false)
 
 
 # The light is the same, but shows elsewhere, or by another factor or order.
 func _update_placement() -> void:
-	pass
+	if not _is_shown:
+		return
+	var box := get_box()
+	var shown := _view.light
+	shown.rotation = box.basis
+	shown.box_middle = box.origin
+	shown.box_size = size
+	shown.box_origin = origin_offset
+	shown.blend_distance = blend_distance
+	shown.priority = priority
+	shown.energy = intensity
+	LightRegistry.update_placement(shown)
 
 
 func _clamp_origin(point: Vector3) -> Vector3:

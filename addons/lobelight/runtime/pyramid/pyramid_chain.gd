@@ -7,7 +7,6 @@ extends RefCounted
 ## other levels, and in Compatibility the faces that are read back. The cube map changes with the
 ## last slice. Updates allocate nothing on the GPU.
 
-const EnvironmentLight := preload("../light/environment_light.gd")
 const FaceViews := preload("face_views.gd")
 const OnDemand := preload("../on_demand.gd")
 const Pyramid := preload("pyramid.gd")
@@ -27,7 +26,6 @@ var cube: PyramidCube
 ## Milliseconds that the processor spent on the last update's transfer to the cube map.
 var transfer_time := 0.0
 
-var _light: EnvironmentLight
 var _is_measured := false
 # Frames in which the last update is still to be drawn again for the clock's sake.
 var _clock_frames := 0
@@ -93,18 +91,6 @@ func receive(slice: int) -> bool:
 	if _is_measured and (slice < 0 or slice == get_slices() - 1 and get_gpu_time() == 0.0):
 		_clock_frames = _CLOCK_FRAMES
 	return received
-
-
-## The light that the cube map gives, the same object every time.
-func get_light() -> EnvironmentLight:
-	if _light == null:
-		_light = EnvironmentLight.new()
-		_light.cubemap = cube.texture
-		_light.size = pyramid.size
-		_light.level_variance = Pyramid.LEVEL_VARIANCES[pyramid.filter]
-		_light.base_variance = pyramid.level_0_variance
-		_light.is_even = Pyramid.is_round(pyramid.filter)
-	return _light
 
 
 ## Has the renderer measure what the draws take.

@@ -22,20 +22,18 @@ var size: int
 
 var _cameras: Array[RID] = []
 # What the views need on the rendering server: kept until they have gone.
-var _kept: Array[RefCounted] = []
+var _owner: RefCounted
+var _environment: Environment
 
 
 ## Views of a scenario, which lives as long as [param owner], and with shadows of omni and spot
-## lights if they are wanted.
-func _init(
-	side: int, scenario: RID, owner: RefCounted, environment: Environment, shadows: bool
-) -> void:
+## lights if they are wanted. They show nothing before [method show] and [method place].
+func _init(side: int, scenario: RID, owner: RefCounted, shadows: bool) -> void:
 	size = side
-	_kept = [owner, environment]
+	_owner = owner
 	var server := RenderingServer
 	for face in 6:
 		var camera := server.camera_create()
-		server.camera_set_environment(camera, environment.get_rid())
 		_cameras.append(camera)
 		var viewport := server.viewport_create()
 		server.viewport_set_use_hdr_2d(viewport, true)
@@ -59,11 +57,20 @@ func _notification(what: int) -> void:
 			RenderingServer.free_rid(rid)
 
 
-## What the views see, from where. They are aligned with the world's axes.
-func place(origin: Vector3, near: float, far: float, cull_mask: int) -> void:
+## What there is behind the scene, and its ambient light.
+func show(environment: Environment) -> void:
+	if environment == _environment:
+		return
+	_environment = environment
+	for camera in _cameras:
+		RenderingServer.camera_set_environment(camera, environment.get_rid())
+
+
+## What the views see, from where, by the axes of the cube in the world.
+func place(origin: Vector3, axes: Basis, near: float, far: float, cull_mask: int) -> void:
 	var server := RenderingServer
 	for face in 6:
-		var basis := Basis.looking_at(_FORWARD[face], _UP[face])
+		var basis := axes * Basis.looking_at(_FORWARD[face], _UP[face])
 		server.camera_set_transform(_cameras[face], Transform3D(basis, origin))
 		server.camera_set_perspective(_cameras[face], 90.0, near, far)
 		server.camera_set_cull_mask(_cameras[face], cull_mask)

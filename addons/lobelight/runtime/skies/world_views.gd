@@ -3,6 +3,7 @@ extends "../light/world_light.gd"
 ## The light of the world around a node: its sky, alone or with the scene before it, seen by six
 ## cameras; or the panorama of its sky.
 
+const LightRegistry := preload("../light/light_registry.gd")
 const SixViews := preload("six_views.gd")
 const SkyStage := preload("sky_stage.gd")
 const Surroundings := preload("surroundings.gd")
@@ -11,13 +12,13 @@ const Surroundings := preload("surroundings.gd")
 const _SKY_NEAR := 0.05
 const _SKY_FAR := 10.0
 
-var _node: LobeEnvironment3D
+var _node: Node3D
 var _views := Views.NONE
 var _surroundings: Surroundings
 var _stage: SkyStage
 
 
-func _init(node: LobeEnvironment3D) -> void:
+func _init(node: Node3D) -> void:
 	_node = node
 	_surroundings = Surroundings.new(node, false)
 
@@ -52,20 +53,29 @@ func make_views(samples: int, face_size: int) -> FaceViews:
 	var world := _node.get_world_3d()
 	var scenario := _stage.scenario if is_sky else world.scenario
 	var owner: RefCounted = _stage if is_sky else world
-	var views := SixViews.new(samples * face_size, scenario, owner, _surroundings.copy, not is_sky)
-	place(views)
-	return views
+	return SixViews.new(samples * face_size, scenario, owner, not is_sky)
 
 
-func place(views: FaceViews) -> void:
+func place(views: FaceViews, place: ViewPlace) -> void:
 	var six := views as SixViews
+	var placed := LightRegistry.get_placed()
+	var world: int = placed.get_camera_bits(_node.get_world_3d().scenario) if placed != null else 0
 	if _views == Views.SCENE:
-		six.place(
-			_node.global_position, _node.capture_near, _node.capture_far, _node.capture_cull_mask
-		)
+		six.show(_surroundings.copy if place.sees_background else _make_dark())
+		six.place(place.origin, place.basis, place.near, place.far, place.cull_mask | world)
 	elif _views == Views.SKY:
 		# From where the camera is, since shaders may ask.
 		var camera := _surroundings.find_camera()
 		var origin := camera.global_position if camera != null else _node.global_position
 		var mask := camera.cull_mask if camera != null else 0xFFFFF
-		six.place(origin, _SKY_NEAR, _SKY_FAR, mask)
+		six.show(_surroundings.copy)
+		six.place(origin, Basis.IDENTITY, _SKY_NEAR, _SKY_FAR, mask | world)
+
+
+# The same light for the scene, with nothing behind it.
+func _make_dark() -> Environment:
+	var dark: Environment = _surroundings.copy.duplicate()
+	dark.background_mode = Environment.BG_COLOR
+	dark.background_color = Color.BLACK
+	dark.background_energy_multiplier = 1.0
+	return dark

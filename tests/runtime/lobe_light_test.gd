@@ -1,7 +1,5 @@
 extends GdUnitTestSuite
-## The level of a lobe as EnvironmentLight has the shader compute it, against the exact formula.
-
-const EnvironmentLight := preload("res://addons/lobelight/runtime/light/environment_light.gd")
+## The level of a lobe as LobeLight has the shader compute it, against the exact formula.
 
 # Texels along a face, c and b of shaders/environment.gdshaderinc, whether levels blur alike in all
 # directions, and how much of a level the shader may be off.
@@ -19,7 +17,7 @@ const LEAST_VARIANCE := 1e-8
 func test_levels(
 	size: int, c: float, b: float, even: bool, allowed: float, _test_parameters := CASES
 ) -> void:
-	var light := EnvironmentLight.new()
+	var light := LobeLight.new()
 	light.size = size
 	light.level_variance = c
 	light.base_variance = b
@@ -35,16 +33,16 @@ func test_levels(
 
 
 # lobelight_level, with LOBELIGHT_STRETCHED_LEVELS, and the sampler's clamp.
-func _shader_level(light: EnvironmentLight, variance: float, m: float) -> float:
-	var s := light._get_sharpest()
-	var k := light._get_level()
+func _shader_level(light: LobeLight, variance: float, m: float) -> float:
+	var s := light.get_sharpest()
+	var k := light.get_level()
 	var level := 0.5 * _log2(variance + s.x + s.y * m) + k.x + (k.y + k.z * m) * m
 	var f := level - floorf(level)
 	return maxf(level - (f - f * f) * (0.3056252 * f + 0.5175971), 0.0)
 
 
 # V_l = t² (b + a (c (4^l − 1) + 4^l / 6)) for l, which whole levels mix linearly; a = m³ or 1.
-func _level(light: EnvironmentLight, variance: float, m: float) -> float:
+func _level(light: LobeLight, variance: float, m: float) -> float:
 	var a := 1.0 if light.is_even else m * m * m
 	var texels := 0.25 * light.size * light.size * variance
 	var ladder := light.level_variance * a

@@ -1,0 +1,35 @@
+@tool
+extends RefCounted
+## What a [LobeEnvironment3D] says of its light, for those who make it.
+
+const Pyramid := preload("../pyramid/pyramid.gd")
+const ViewPlace := preload("view_place.gd")
+
+## As [enum LobeEnvironment3D.Source].
+enum Source { AUTOMATIC, SKY, PANORAMA, CAPTURE }
+
+## Whose world, viewport and place count.
+var node: Node3D
+var source := Source.AUTOMATIC
+var panorama: Texture2D
+var filter := Pyramid.Filter.DISC
+## Texels along the side of a face; 0 for what suits the source.
+var size := 0
+var energy := 1.0
+var measure_cost := false
+## Of captures; where they are seen from is the node's position.
+var capture := ViewPlace.new()
+## Called when a panorama has changed.
+var on_panorama_changed := Callable()
+
+
+## Whether the light is taken from [member panorama], by what the properties say.
+func takes_panorama() -> bool:
+	return decide(source, panorama != null) == Source.PANORAMA
+
+
+## What a source stands for: with AUTOMATIC, a panorama if there is one, otherwise the sky.
+static func decide(wanted: Source, has_panorama: bool) -> Source:
+	if wanted == Source.AUTOMATIC:
+		return Source.PANORAMA if has_panorama else Source.SKY
+	return wanted

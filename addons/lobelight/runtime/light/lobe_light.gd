@@ -1,0 +1,146 @@
+@tool
+class_name LobeLight
+extends Resource
+## Light as [LobeMaterial3D]s take it: a cube map whose levels are blurred, where it belongs, and how
+## strong it is. [LobeEnvironment3D] and [LobeProbe3D] make it.
+## [br][br]
+## The light of a probe has a box, within which it is seen from where the pixel is. A light that is
+## saved keeps its faces and what they were filtered with; where it belongs says the node that shows
+## it, so that a scene with its light can be placed anywhere.
+
+# A unit vector's largest component is at least this.
+const _LEAST_COMPONENT := 0.57735027
+const _FACES := 6
+# Of the saved form; others are refused.
+const _VERSION := 1
+
+## The form of what is saved.
+@export_storage var version := _VERSION
+## The faces +X −X +Y −Y +Z −Z with all their levels, half floats, linear radiance: what is saved.
+## Empty while the light is on the GPU only, see [method store].
+@export_storage var faces: Array[Image] = []:
+	set(value):
+		faces = value
+		cubemap = null
+## Texels along the side of a face.
+@export_storage var size := 1
+## How much the levels blur: c in shaders/environment.gdshaderinc; at first that of 2 × 2 means.
+@export_storage var level_variance := 1.0 / 12.0
+## How much level 0 is blurred: b in shaders/environment.gdshaderinc.
+@export_storage var base_variance := 0.0
+## Whether they blur alike in all directions, rather than as the texels of the cube are stretched;
+## if not, materials need LOBELIGHT_STRETCHED_LEVELS.
+@export_storage var is_even := false
+
+## The cube map with all its levels. Of faces it is made when it is first asked for;
+## [code]null[/code] while the light has no texture of its own.
+var cubemap: TextureLayered:
+	get:
+		if cubemap == null and not faces.is_empty():
+			var made := Cubemap.new()
+			if made.create_from_images(faces) == OK:
+				cubemap = made
+		return cubemap
+## From the light to the world; orthonormal.
+var rotation := Basis.IDENTITY
+## A factor for the radiance.
+var energy := 1.0
+
+## The extents of the box in metres, along the light's axes; zero for a light from everywhere.
+var box_size := Vector3.ZERO
+## The middle of the box in the world, in metres.
+var box_middle := Vector3.ZERO
+## Where the light is seen from, from the middle of the box, along the light's axes, in metres.
+var box_origin := Vector3.ZERO
+## How far from the box its light ends, in metres.
+var blend_distance := 0.0
+## Where boxes overlap, those of a higher priority come first.
+var priority := 0
+
+
+## No light, at levels that blur alike in all directions or not.
+static func make_dark(even: bool) -> LobeLight:
+	var light := LobeLight.new()
+	var dark: Array[Image] = []
+	for face in _FACES:
+		dark.append(Image.create_empty(1, 1, false, Image.FORMAT_RGBAH))
+	light.faces = dark
+	light.is_even = even
+	light.energy = 0.0
+	return light
+
+
+## Why the light cannot be shown, in a sentence; empty if it can.
+func get_problem() -> String:
+	if version != _VERSION:
+		return (
+			"The light was saved in form %d, this version reads %d: bake it again."
+			% [version, _VERSION]
+		)
+	if faces.is_empty():
+		return "" if cubemap != null else "The light has no faces: bake it again."
+	if faces.size() != _FACES:
+		return "The light has %d faces, not 6: bake it again." % faces.size()
+	for face in faces:
+		if face == null or face.get_format() != Image.FORMAT_RGBAH:
+			return "A face of the light is no half-float image: bake it again."
+		if face.get_size() != size * Vector2i.ONE or (size > 1 and not face.has_mipmaps()):
+			return (
+				"A face of the light is not %d texels wide with all levels: bake it again." % size
+			)
+	if size < 1 or size != nearest_po2(size):
+		return "The light's faces are %d texels wide, no power of two: bake it again." % size
+	if not is_finite(level_variance) or level_variance <= 0.0 or not is_finite(base_variance):
+		return "The light does not say what its levels were blurred with: bake it again."
+	return ""
+
+
+## Whether the light is that of a box.
+func has_box() -> bool:
+	return box_size != Vector3.ZERO
+
+
+## Hands the light to a material of the rendering server.
+func apply(material: RID) -> void:
+	var server := RenderingServer
+	server.material_set_param(material, &"lobelight_environment", cubemap.get_rid())
+	server.material_set_param(material, &"lobelight_environment_sharpest", get_sharpest())
+	server.material_set_param(material, &"lobelight_environment_level", get_level())
+	apply_placement(material)
+
+
+## The same for what may change from one frame to the next.
+func apply_placement(material: RID) -> void:
+	var server := RenderingServer
+	var to_environment := rotation.transposed()
+	server.material_set_param(material, &"lobelight_environment_rotation", to_environment)
+	server.material_set_param(material, &"lobelight_environment_energy", energy)
+
+
+## Of the formula in shaders/environment.gdshaderinc, s; of stretched levels a line through its ends.
+func get_sharpest() -> Vector2:
+	var texel := 4.0 / (size * size)
+	var slope := 0.0
+	if not is_even:
+		slope = level_variance * (1.0 - pow(_LEAST_COMPONENT, 3.0)) / (1.0 - _LEAST_COMPONENT)
+	return texel * Vector2(level_variance - base_variance - slope, slope)
+
+
+## Of the same, k; of stretched levels a parabola through its ends and its middle.
+func get_level() -> Vector3:
+	if is_even:
+		return Vector3(_get_level_at(1.0), 0.0, 0.0)
+	var middle := 0.5 * (_LEAST_COMPONENT + 1.0)
+	var first := _get_level_at(_LEAST_COMPONENT)
+	var last := _get_level_at(1.0)
+	var slope := (last - first) / (1.0 - _LEAST_COMPONENT)
+	# Newton's divided differences.
+	var bend := slope - (_get_level_at(middle) - first) / (middle - _LEAST_COMPONENT)
+	bend /= 1.0 - middle
+	var linear := slope - bend * (_LEAST_COMPONENT + 1.0)
+	return Vector3(last - linear - bend, linear, bend)
+
+
+func _get_level_at(component: float) -> float:
+	var texel := 4.0 / (size * size) * pow(component, 3.0)
+	return -0.5 * log(texel * (level_variance + 1.0 / 6.0)) / log(2.0)

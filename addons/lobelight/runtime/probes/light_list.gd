@@ -1,0 +1,95 @@
+@tool
+extends RefCounted
+## The lights of all worlds as a texture of numbers, read by placed_light.gdshaderinc.
+##
+## Row 0 has, for each world, the first of its rows. A light is a row of seven texels:
+## [codeblock lang=text]
+## 0 … 2   rows of the rotation from the world to the light; w: what is added, so that the middle of
+##         the box is at 0
+## 3       half the box's size; w: 1 / blend distance
+## 4       from where the light is seen to the middle of the box, along the light's axes; w: layer
+## 5       bias of the weight, energy, s and k of lobelight_level
+## 6       of stretched levels: the rest of s and of k; w: 1 where lights of a lower priority begin
+## [/codeblock]
+## The last row of a world is its environment's.
+
+## The layer of what all materials have as their environment.
+const ENVIRONMENT := -1
+## Texels of a row, and how many of them lights use.
+const WIDTH := 16
+# The box of what is seen alike from everywhere, half its size in metres.
+const _EVERYWHERE := 1e9
+# The same as a distance over which nothing blends.
+const _SHARPEST_EDGE := 1e6
+
+var texture := ImageTexture.new()
+
+var _numbers := PackedFloat32Array()
+var _rows := 0
+var _worlds := 0
+var _bytes := PackedByteArray()
+
+
+func _init() -> void:
+	begin()
+	end()
+
+
+func begin() -> void:
+	_numbers.resize(4 * WIDTH)
+	_numbers.fill(0.0)
+	_rows = 1
+	_worlds = 0
+
+
+## The lights that follow are those of another world. What is in none of them shows the first one's.
+func begin_world() -> void:
+	for column in range(_worlds, WIDTH if _worlds == 0 else _worlds + 1):
+		_numbers[4 * column] = _rows
+	_worlds += 1
+
+
+## [param shift] is added to the light's levels.
+func add(light: LobeLight, layer: int, shift: float, bias: float, starts_priority: bool) -> void:
+	var half := 0.5 * light.box_size if light.has_box() else _EVERYWHERE * Vector3.ONE
+	var slope := 0.0
+	var to_middle := Vector3.ZERO
+	var moved := Vector3.ZERO
+	var to_light := light.rotation.transposed()
+	if light.has_box():
+		slope = minf(1.0 / maxf(light.blend_distance, 1e-9), _SHARPEST_EDGE)
+		to_middle = -light.box_origin
+		moved = -(to_light * light.box_middle)
+	var sharpest := light.get_sharpest()
+	var level := light.get_level()
+	var texels: Array[Vector4] = [
+		Vector4(to_light.x.x, to_light.y.x, to_light.z.x, moved.x),
+		Vector4(to_light.x.y, to_light.y.y, to_light.z.y, moved.y),
+		Vector4(to_light.x.z, to_light.y.z, to_light.z.z, moved.z),
+		Vector4(half.x, half.y, half.z, slope),
+		Vector4(to_middle.x, to_middle.y, to_middle.z, layer),
+		Vector4(bias, light.energy, sharpest.x, level.x + shift),
+		Vector4(sharpest.y, level.y, level.z, 1.0 if starts_priority else 0.0),
+	]
+	_numbers.resize(4 * WIDTH * (_rows + 1))
+	for i in texels.size():
+		for j in 4:
+			_numbers[4 * (WIDTH * _rows + i) + j] = texels[i][j]
+	_rows += 1
+
+
+## Hands the list to the GPU if it is another one.
+func end() -> void:
+	# Textures that grow by powers of two are few.
+	var height := maxi(nearest_po2(_rows), 4)
+	_numbers.resize(4 * WIDTH * height)
+	var bytes := _numbers.to_byte_array()
+	if bytes == _bytes:
+		return
+	var is_as_large := bytes.size() == _bytes.size()
+	_bytes = bytes
+	var image := Image.create_from_data(WIDTH, height, false, Image.FORMAT_RGBAF, bytes)
+	if is_as_large:
+		texture.update(image)
+	else:
+		texture.set_image(image)

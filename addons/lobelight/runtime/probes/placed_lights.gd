@@ -1,0 +1,169 @@
+@tool
+extends RefCounted
+## The lights of all places, as the shader finds them by where a pixel is (placed_light.gdshaderinc):
+## a list of the lights of each world, and the textures that they are in.
+##
+## The list is a texture that all materials share, so that a light which moves costs them nothing.
+
+const LightList := preload("light_list.gd")
+const LightRegistry := preload("../light/light_registry.gd")
+const LightWorld := preload("../light/light_world.gd")
+const LightStore := preload("light_store.gd")
+const WorldCameras := preload("world_cameras.gd")
+
+## Worlds that can be told from one another; those beyond show the first one's lights.
+const MAX_WORLDS := 8
+
+var _list := LightList.new()
+var _store: LightStore = LightStore.make()
+var _cameras := WorldCameras.new()
+var _worlds: Dictionary[RID, LightWorld] = {}
+var _neutral: LobeLight
+var _primary: LobeLight
+var _is_stretched := false
+var _awaits_frame := false
+# What the materials have.
+var _given: Array[RID] = []
+
+
+func _init() -> void:
+	_store.on_change = LightRegistry.refresh
+
+
+## To be called before it is let go of.
+func end() -> void:
+	_cameras.tell([])
+	if _awaits_frame:
+		RenderingServer.frame_pre_draw.disconnect(_on_frame_pre_draw)
+
+
+## Looks at the lights of the worlds, by their scenarios.
+func show(worlds: Dictionary[RID, LightWorld], neutral: LobeLight) -> void:
+	_worlds = worlds
+	_neutral = neutral
+	var lit: Array[RID] = []
+	var locals: Array[LobeLight] = []
+	var others: Array[LobeLight] = []
+	_primary = null
+	_is_stretched = false
+	for scenario: RID in worlds:
+		var world := worlds[scenario]
+		var light := world.get_light()
+		if light == null and world.probes.is_empty() or lit.size() == MAX_WORLDS:
+			continue
+		lit.append(scenario)
+		if light == null:
+			light = neutral
+		if _primary == null:
+			_primary = light
+		elif light != _primary and light not in others:
+			others.append(light)
+		if world.faded != null and world.faded not in others:
+			others.append(world.faded)
+		for probe: LobeLight in world.probes.values():
+			locals.append(probe)
+	for light: LobeLight in locals + others + [_primary]:
+		_is_stretched = _is_stretched or not light.is_even
+	_store.hold(locals, others)
+	_cameras.tell(lit)
+	mark_moved()
+	# What is drawn before the next frame begins would show the list as it was.
+	_write()
+
+
+## A light has moved or changed its energy: the list is written before the next frame.
+func mark_moved() -> void:
+	if not _awaits_frame:
+		_awaits_frame = true
+		RenderingServer.frame_pre_draw.connect(_on_frame_pre_draw)
+
+
+## The #defines that shaders need, without LOBELIGHT_.
+func get_defines() -> PackedStringArray:
+	var defines: PackedStringArray = ["PLACED"]
+	defines.append_array(_store.get_defines())
+	if _is_stretched:
+		defines.append("STRETCHED_LEVELS")
+	return defines
+
+
+## Whether there are other textures than when materials were last asked about.
+func has_other_textures() -> bool:
+	var now := _list_textures()
+	var differs := now != _given
+	_given = now
+	return differs
+
+
+## Hands the lights to a material of the rendering server.
+func apply(material: RID) -> void:
+	var server := RenderingServer
+	server.material_set_param(material, &"lobelight_environment", _primary.cubemap.get_rid())
+	server.material_set_param(material, &"lobelight_lights", _list.texture.get_rid())
+	_store.apply(material)
+
+
+## Where the lights of probes are kept.
+func get_store() -> LightStore:
+	return _store
+
+
+## The bits by which the shader tells a world, for the cull masks of cameras that look at it.
+func get_camera_bits(scenario: RID) -> int:
+	return _cameras.get_bits(scenario)
+
+
+func _list_textures() -> Array[RID]:
+	var textures: Array[RID] = [_primary.cubemap.get_rid(), _list.texture.get_rid()]
+	textures.append_array(_store.get_textures())
+	return textures
+
+
+func _on_frame_pre_draw() -> void:
+	RenderingServer.frame_pre_draw.disconnect(_on_frame_pre_draw)
+	_awaits_frame = false
+	_write()
+
+
+func _write() -> void:
+	_list.begin()
+	for scenario in _cameras.get_worlds():
+		if not _worlds.has(scenario):
+			continue
+		var world := _worlds[scenario]
+		_list.begin_world()
+		var probes: Array[LobeLight] = []
+		for probe: LobeLight in world.probes.values():
+			if _store.get_layer(probe) != LightStore.NO_PLACE:
+				probes.append(probe)
+		probes.sort_custom(_comes_before)
+		for i in probes.size():
+			var starts := i > 0 and probes[i].priority != probes[i - 1].priority
+			_list.add(
+				probes[i],
+				_store.get_layer(probes[i]),
+				_store.get_level_shift(probes[i]),
+				1.0,
+				starts
+			)
+		var light := world.get_light() if world.get_light() != null else _neutral
+		if world.faded != null:
+			_list.add(light, _layer_of(light), 0.0, world.share, true)
+			light = world.faded
+		_list.add(light, _layer_of(light), 0.0, 1.0, true)
+	_list.end()
+
+
+func _layer_of(light: LobeLight) -> int:
+	return LightList.ENVIRONMENT if light == _primary else _store.get_layer(light)
+
+
+# The order in which lights take their shares of a pixel. Equal ones keep it from frame to frame.
+static func _comes_before(a: LobeLight, b: LobeLight) -> bool:
+	if a.priority != b.priority:
+		return a.priority > b.priority
+	var volumes := [a.box_size.x * a.box_size.y * a.box_size.z, 0.0]
+	volumes[1] = b.box_size.x * b.box_size.y * b.box_size.z
+	if volumes[0] != volumes[1]:
+		return volumes[0] < volumes[1]
+	return a.get_instance_id() < b.get_instance_id()
