@@ -12,6 +12,7 @@ CLASSES = {
     "LobeBaker",
     "LobeEnvironment3D",
     "LobeImageFile",
+    "LobeLight",
     "LobeMaterial3D",
     "LobeProbe3D",
     "LobeReference",

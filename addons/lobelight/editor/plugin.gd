@@ -9,10 +9,13 @@ extends EditorPlugin
 const BakeDialog := preload("bake/bake_dialog.gd")
 const BakeQueue := preload("bake/bake_queue.gd")
 const ExportPlugin := preload("export/export_plugin.gd")
+const LightBakes := preload("probes/light_bakes.gd")
+const LightDialog := preload("probes/light_dialog.gd")
 const MaterialConversionPlugin := preload("material_conversion_plugin.gd")
 const MeasuredImporter := preload("import/measured_importer.gd")
 const PanoramaImporter := preload("import/panorama_importer.gd")
 const ProbeGizmo := preload("gizmos/probe_gizmo.gd")
+const ProbeInspector := preload("probes/probe_inspector.gd")
 const SceneConversionMenu := preload("scene_conversion_menu.gd")
 const TableInspector := preload("bake/table_inspector.gd")
 const TangentWarning := preload("tangent_warning.gd")
@@ -31,6 +34,9 @@ var _importers: Array[EditorImportPlugin] = []
 var _warning_inspector: WarningInspector
 var _tools_menu: ToolsMenu
 var _probe_gizmo: ProbeGizmo
+var _light_bakes: LightBakes
+var _light_dialog: LightDialog
+var _probe_inspector: ProbeInspector
 
 
 func _enter_tree() -> void:
@@ -60,7 +66,12 @@ func _enter_tree() -> void:
 	add_inspector_plugin(_warning_inspector)
 	# Freed with the plugin.
 	add_child(WarningRefresh.new())
-	_tools_menu = ToolsMenu.new(_bakes, _scene_menu)
+	_light_bakes = LightBakes.new(get_undo_redo())
+	_light_dialog = LightDialog.new(_light_bakes)
+	EditorInterface.get_base_control().add_child(_light_dialog)
+	_probe_inspector = ProbeInspector.new(_light_bakes)
+	add_inspector_plugin(_probe_inspector)
+	_tools_menu = ToolsMenu.new(_bakes, _light_bakes, _scene_menu)
 	add_tool_submenu_item(ToolsMenu.TITLE, _tools_menu)
 	_probe_gizmo = ProbeGizmo.new(get_undo_redo())
 	add_node_3d_gizmo_plugin(_probe_gizmo)
@@ -81,6 +92,12 @@ func _exit_tree() -> void:
 	_table_inspector = null
 	remove_inspector_plugin(_warning_inspector)
 	_warning_inspector = null
+	remove_inspector_plugin(_probe_inspector)
+	_probe_inspector = null
+	_light_dialog.queue_free()
+	# It lives until a capture under way has ended.
+	_light_bakes.cancel_all()
+	_light_bakes = null
 	remove_node_3d_gizmo_plugin(_probe_gizmo)
 	_probe_gizmo = null
 	# It is freed with its item.
@@ -104,6 +121,11 @@ func get_probe_gizmo() -> ProbeGizmo:
 	return _probe_gizmo
 
 
-## The bakes under way.
+## The bakes of probes under way.
+func get_light_bakes() -> LightBakes:
+	return _light_bakes
+
+
+## The bakes of tables under way.
 func get_bakes() -> BakeQueue:
 	return _bakes

@@ -2,9 +2,11 @@
 extends PopupMenu
 ## Project > Tools > Lobelight: what concerns a whole scene.
 
-enum Item { BAKE, REPORT, CONVERT }
+enum Item { BAKE, REPORT, CONVERT, BAKE_PROBES }
 
 const BakeQueue := preload("../bake/bake_queue.gd")
+const LightBakes := preload("../probes/light_bakes.gd")
+const LightFile := preload("../probes/light_file.gd")
 const Recipe := preload("../bake/bake_recipe.gd")
 const SceneConversionMenu := preload("../scene_conversion_menu.gd")
 const SceneReport := preload("scene_report.gd")
@@ -14,16 +16,21 @@ const Wording := preload("../wording.gd")
 const TITLE := "Lobelight"
 
 var _queue: BakeQueue
+var _light_bakes: LightBakes
 var _conversion: SceneConversionMenu
 var _dialog: AcceptDialog
 var _text: TextEdit
 
 
-func _init(queue: BakeQueue = null, conversion: SceneConversionMenu = null) -> void:
+func _init(
+	queue: BakeQueue = null, light_bakes: LightBakes = null, conversion: SceneConversionMenu = null
+) -> void:
 	_queue = queue
+	_light_bakes = light_bakes
 	_conversion = conversion
 	name = TITLE
 	add_item("Bake All Tables in This Scene", Item.BAKE)
+	add_item("Bake All Probes in This Scene", Item.BAKE_PROBES)
 	add_item("Report What This Scene Uses …", Item.REPORT)
 	add_item("Convert Materials of This Scene to LobeMaterial3D", Item.CONVERT)
 	id_pressed.connect(choose)
@@ -42,6 +49,8 @@ func choose(item: int) -> void:
 					else "There is no table to be baked in this scene."
 				)
 			)
+		Item.BAKE_PROBES:
+			_say(bake_probes(root))
 		Item.REPORT:
 			_show_report(SceneReport.describe(root))
 		Item.CONVERT:
@@ -58,6 +67,22 @@ func bake_all(root: Node) -> int:
 			_queue.add(table, Recipe.from_table(table))
 			count += 1
 	return count
+
+
+## Bakes the light of the scene's probes; what is said of it.
+func bake_probes(root: Node) -> String:
+	var probes := LightFile.find_probes(root)
+	if probes.is_empty():
+		return "There is no LobeProbe3D in this scene."
+	var problem := LightFile.find_problem_of_scene(root)
+	if problem:
+		return problem
+	var count := _light_bakes.add_all(root)
+	var text := "Baking the light of %s." % Wording.count(count, "probe")
+	if count < probes.size():
+		var others := Wording.count(probes.size() - count, "probe")
+		text += " %s of instanced scenes left: bake these there." % others
+	return text
 
 
 ## Whether it is known what the table was baked from, and no importer bakes it.

@@ -1,0 +1,102 @@
+@tool
+extends Object
+## Where the baked lights of a scene's probes are kept: files beside the scene, named by the scene
+## and the node.
+
+const _EXTENSION := "res"
+
+
+## Why a probe's light cannot be kept with the scene of [param root], in a sentence; empty if it
+## can.
+static func find_problem(probe: LobeProbe3D, root: Node) -> String:
+	if root == null or probe != root and not root.is_ancestor_of(probe):
+		return "The probe is not in the open scene, which its light is to be saved with."
+	var problem := find_problem_of_scene(root)
+	if problem:
+		return problem
+	if not is_saved(probe, root):
+		return (
+			(
+				"%s is in an instanced scene: bake it where that scene is open, or turn on Editable "
+				+ "Children."
+			)
+			% probe.name
+		)
+	return ""
+
+
+## Why no light can be kept with a scene, in a sentence; empty if it can.
+static func find_problem_of_scene(root: Node) -> String:
+	if root.scene_file_path.is_empty():
+		return "Save the scene first: its light is saved in a file beside it."
+	return ""
+
+
+## Whether what is changed of a node is saved with the scene of [param root].
+static func is_saved(node: Node, root: Node) -> bool:
+	if node == root or node.owner == root:
+		return true
+	var instance := node.owner
+	return instance != null and root.is_editable_instance(instance) and is_saved(instance, root)
+
+
+## The file for a probe's light. It stays the one that the probe has, unless that is another scene's
+## or another probe's: what was copied has a light of its own from then on.
+static func choose_path(probe: LobeProbe3D, root: Node) -> String:
+	var taken: Dictionary[String, bool] = {}
+	for other in find_probes(root):
+		if other != probe and other.light != null:
+			taken[other.light.resource_path] = true
+	var stem := root.scene_file_path.get_basename()
+	var own := "" if probe.light == null else probe.light.resource_path
+	if own.begins_with(stem + ".") and own.get_extension() == _EXTENSION and not taken.has(own):
+		return own
+	var name := root.name if probe == root else "_".join(_get_names(root.get_path_to(probe)))
+	var path := "%s.%s.%s" % [stem, name, _EXTENSION]
+	var number := 2
+	while taken.has(path):
+		path = "%s.%s_%d.%s" % [stem, name, number, _EXTENSION]
+		number += 1
+	return path
+
+
+## The probes among a node and all below it.
+static func find_probes(root: Node) -> Array[LobeProbe3D]:
+	var found: Array[LobeProbe3D] = []
+	if root == null:
+		return found
+	var nodes := root.find_children("*", "Node3D", true, false)
+	nodes.push_front(root)
+	for node in nodes:
+		if node is LobeProbe3D:
+			found.append(node)
+	return found
+
+
+## Saves a light; why it could not be done, in a sentence, and empty if it was. A file that was
+## there is replaced whole or not at all, and keeps its UID.
+static func write(light: LobeLight, path: String) -> String:
+	# The editor does not look at files with a dot in front.
+	var temporary := path.get_base_dir().path_join("." + path.get_file())
+	var uid := ResourceUID.INVALID_ID
+	if FileAccess.file_exists(path):
+		uid = ResourceLoader.get_resource_uid(path)
+	var error := ResourceSaver.save(light, temporary, ResourceSaver.FLAG_COMPRESS)
+	if error == OK and uid != ResourceUID.INVALID_ID:
+		error = ResourceSaver.set_uid(temporary, uid)
+	if error == OK:
+		error = DirAccess.rename_absolute(temporary, path)
+	if error != OK:
+		if FileAccess.file_exists(temporary):
+			DirAccess.remove_absolute(temporary)
+		return "%s cannot be written: %s." % [path, error_string(error).to_lower()]
+	light.take_over_path(path)
+	EditorInterface.get_resource_filesystem().update_file(path)
+	return ""
+
+
+static func _get_names(path: NodePath) -> PackedStringArray:
+	var names: PackedStringArray = []
+	for index in path.get_name_count():
+		names.append(path.get_name(index))
+	return names
