@@ -6,6 +6,7 @@ extends RefCounted
 ## [code]lobelight_features[/code] of a scene's root, an array of their names.
 
 const LobeEnvironment := preload("../../runtime/light/lobe_environment_3d.gd")
+const LightSettings := preload("../../runtime/light/light_settings.gd")
 const MaterialShader := preload("../../runtime/material/material_shader.gd")
 const OnDemand := preload("../../runtime/on_demand.gd")
 
@@ -118,9 +119,8 @@ func look_at_node(file: String, properties: Dictionary, is_instance: bool) -> vo
 	environments.append([file, properties])
 	var source: int = properties.get("source", LobeEnvironment3D.Source.AUTOMATIC)
 	var has_panorama := properties.get("panorama") is Texture2D
-	if source == LobeEnvironment3D.Source.AUTOMATIC and has_panorama:
-		source = LobeEnvironment3D.Source.PANORAMA
-	if source != LobeEnvironment3D.Source.PANORAMA:
+	source = LightSettings.decide(source as LightSettings.Source, has_panorama)
+	if source != LightSettings.Source.PANORAMA:
 		add(OnDemand.SKIES, file)
 	var filter: int = properties.get("filter", LobeEnvironment3D.Filter.DISC)
 	if filter == LobeEnvironment3D.Filter.BOX or filter == LobeEnvironment3D.Filter.BINOMIAL:

@@ -19,6 +19,8 @@ static var _mutex := Mutex.new()
 static var _materials: Dictionary[RID, Callable] = {}
 # Lights that materials were given, for which those of the worlds do not count.
 static var _own: Dictionary[RID, LobeLight] = {}
+# For those of them that have a box, where it is, as the shader reads it.
+static var _own_lists: Dictionary[RID, Texture2D] = {}
 # By their scenarios, in the order in which they came.
 static var _worlds: Dictionary[RID, LightWorld] = {}
 # Made when the first material comes, dropped with the last one.
@@ -39,7 +41,12 @@ static func get_defines(material: RID) -> PackedStringArray:
 	var own: LobeLight = _own.get(material)
 	var defines := _defines.duplicate()
 	_mutex.unlock()
-	return defines if own == null else _defines_of(own)
+	if own == null:
+		return defines
+	defines = _defines_of(own)
+	if _has_own_place(own):
+		defines.insert(0, "PLACED")
+	return defines
 
 
 ## From now on the material shows the light of where it is. [param other_variant] is called when
@@ -56,6 +63,7 @@ static func remove_material(material: RID) -> void:
 	_mutex.lock()
 	_materials.erase(material)
 	_own.erase(material)
+	_own_lists.erase(material)
 	if _materials.is_empty():
 		_neutral = null
 		if _worlds.is_empty():
@@ -65,11 +73,13 @@ static func remove_material(material: RID) -> void:
 
 ## Gives a material a light of its own; with [code]null[/code] it shows that of its place again.
 static func set_own_light(material: RID, light: LobeLight) -> void:
+	if light != null and light.has_box():
+		_load_places()
 	_mutex.lock()
-	if light != null:
+	_own.erase(material)
+	_own_lists.erase(material)
+	if light != null and light.cubemap != null:
 		_own[material] = light
-	else:
-		_own.erase(material)
 	if _materials.has(material):
 		_apply(material)
 		_ask_for_variant(material)
@@ -123,7 +133,7 @@ static func update_placement(light: LobeLight) -> void:
 				light.apply_placement(material)
 	for material: RID in _own:
 		if _own[material] == light and _materials.has(material):
-			light.apply_placement(material)
+			_apply(material)
 	_mutex.unlock()
 
 
@@ -197,6 +207,7 @@ static func _forget() -> void:
 	_is_watched = false
 	_materials.clear()
 	_own.clear()
+	_own_lists.clear()
 	_worlds.clear()
 	_neutral = null
 	_shown = null
@@ -268,13 +279,22 @@ static func _get_neutral() -> LobeLight:
 
 static func _apply(material: RID) -> void:
 	if _own.has(material):
-		_own[material].apply(material)
+		var own := _own[material]
+		own.apply(material)
+		if _has_own_place(own):
+			_own_lists[material] = _placed_script.make_list(own)
+			var list := _own_lists[material].get_rid()
+			RenderingServer.material_set_param(material, &"lobelight_lights", list)
 	elif _placed != null:
 		_placed.apply(material)
 	else:
 		if _shown == null:
 			_shown = _get_neutral()
 		_shown.apply(material)
+
+
+static func _has_own_place(light: LobeLight) -> bool:
+	return light.has_box() and _placed_script != null
 
 
 static func _ask_for_variant(material: RID) -> void:

@@ -2,11 +2,11 @@
 extends RefCounted
 ## What a [LobeEnvironment3D] says of its light, for those who make it.
 
-const Pyramid := preload("../pyramid/pyramid.gd")
-const ViewPlace := preload("view_place.gd")
-
 ## As [enum LobeEnvironment3D.Source].
 enum Source { AUTOMATIC, SKY, PANORAMA, CAPTURE }
+
+const Pyramid := preload("../pyramid/pyramid.gd")
+const ViewPlace := preload("view_place.gd")
 
 ## Whose world, viewport and place count.
 var node: Node3D

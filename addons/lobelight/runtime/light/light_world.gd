@@ -1,6 +1,7 @@
 @tool
 extends RefCounted
-## The lights of one world: what its environments and probes have given, and what is shown meanwhile.
+## The lights of one world: what its environments and probes have given, and what is shown until
+## they have.
 
 # Frames for which a light that has been taken back stays, so that the environment of the next
 # scene can come; while that one makes its light, the old one stays for longer.

@@ -26,9 +26,9 @@ extends Node3D
 ## [member update_cpu_time] tell for yours. Updates allocate nothing on the GPU.
 ## [br][br]
 ## There is to be one per [World3D]; a second one waits until the first has left. Hidden and waiting
-## nodes make nothing. Each world shows its own light, up to eight of them, of which materials get
-## those of four; see [LobeProbe3D] for the light of rooms. When the node leaves, its light stays until
-## that of the next one has been made; [member fade_time] has one fade into the other.
+## nodes make nothing. Each of up to four worlds shows its own light. When the node leaves, its
+## light stays until that of the next one has been made; [member fade_time] has one fade into the
+## other. [LobeProbe3D] has the light of rooms.
 
 ## The pyramid has been made anew and the materials have it.
 signal rebuilt
@@ -314,6 +314,12 @@ func is_active() -> bool:
 ## It is a [Cubemap] in Compatibility, otherwise a [TextureCubemapRD].
 func get_cubemap() -> TextureLayered:
 	return _light.cubemap if _light != null else null
+
+
+## The light as materials take it, see [member LobeMaterial3D.light]; [code]null[/code] until it has
+## been made. It goes on with the node's updates.
+func get_light() -> LobeLight:
+	return _light
 
 
 ## Frames in which [constant TIME_SLICED] makes the pyramid anew: 8 with views of a sky or a scene,

@@ -1,8 +1,8 @@
 @tool
 class_name LobeLight
 extends Resource
-## Light as [LobeMaterial3D]s take it: a cube map whose levels are blurred, where it belongs, and how
-## strong it is. [LobeEnvironment3D] and [LobeProbe3D] make it.
+## Light as [LobeMaterial3D]s take it: a cube map whose levels are blurred, where it belongs, and
+## how strong it is. [LobeEnvironment3D] and [LobeProbe3D] make it.
 ## [br][br]
 ## The light of a probe has a box, within which it is seen from where the pixel is. A light that is
 ## saved keeps its faces and what they were filtered with; where it belongs says the node that shows
@@ -16,8 +16,8 @@ const _VERSION := 1
 
 ## The form of what is saved.
 @export_storage var version := _VERSION
-## The faces +X −X +Y −Y +Z −Z with all their levels, half floats, linear radiance: what is saved.
-## Empty while the light is on the GPU only, see [method store].
+## The faces +X −X +Y −Y +Z −Z with all their levels, half floats, linear radiance: what is
+## saved. Empty while the light is on the GPU only, see [method store].
 @export_storage var faces: Array[Image] = []:
 	set(value):
 		faces = value
@@ -77,22 +77,31 @@ func get_problem() -> String:
 			"The light was saved in form %d, this version reads %d: bake it again."
 			% [version, _VERSION]
 		)
-	if faces.is_empty():
-		return "" if cubemap != null else "The light has no faces: bake it again."
+	if faces.is_empty() and cubemap != null:
+		return ""
 	if faces.size() != _FACES:
 		return "The light has %d faces, not 6: bake it again." % faces.size()
-	for face in faces:
-		if face == null or face.get_format() != Image.FORMAT_RGBAH:
-			return "A face of the light is no half-float image: bake it again."
-		if face.get_size() != size * Vector2i.ONE or (size > 1 and not face.has_mipmaps()):
-			return (
-				"A face of the light is not %d texels wide with all levels: bake it again." % size
-			)
 	if size < 1 or size != nearest_po2(size):
 		return "The light's faces are %d texels wide, no power of two: bake it again." % size
 	if not is_finite(level_variance) or level_variance <= 0.0 or not is_finite(base_variance):
 		return "The light does not say what its levels were blurred with: bake it again."
-	return ""
+	return (
+		""
+		if faces.all(_is_face)
+		else (
+			"A face of the light is no half-float image of %d texels with all levels: bake it again."
+			% size
+		)
+	)
+
+
+func _is_face(face: Image) -> bool:
+	return (
+		face != null
+		and face.get_format() == Image.FORMAT_RGBAH
+		and face.get_size() == size * Vector2i.ONE
+		and (size == 1 or face.has_mipmaps())
+	)
 
 
 ## Whether the light is that of a box.
@@ -117,7 +126,8 @@ func apply_placement(material: RID) -> void:
 	server.material_set_param(material, &"lobelight_environment_energy", energy)
 
 
-## Of the formula in shaders/environment.gdshaderinc, s; of stretched levels a line through its ends.
+## Of the formula in shaders/environment.gdshaderinc, s; of stretched levels a line through its
+## ends.
 func get_sharpest() -> Vector2:
 	var texel := 4.0 / (size * size)
 	var slope := 0.0

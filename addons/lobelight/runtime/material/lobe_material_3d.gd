@@ -5,7 +5,8 @@ extends ShaderMaterial
 ## A material lit by its surroundings through the lobes of its BRDF: metals, brushed ones too,
 ## and everything that [StandardMaterial3D] draws with a diffuse colour.
 ##
-## The light comes from the active [LobeEnvironment3D]; without one, from a neutral map. Set
+## The light comes from the [LobeEnvironment3D] of the world and the [LobeProbe3D]s around each
+## pixel; without any, from a neutral map. Set
 ## [member roughness] and [member anisotropy], and the lobes come from a [LobeTableSet];
 ## [member table] has those of a single BRDF. Properties are named and behave as those of
 ## [StandardMaterial3D], see [method widths_of] for where they go further.
@@ -24,7 +25,6 @@ extends ShaderMaterial
 ## light does not know of them.
 ## [br]- Compatibility, as of Godot 4.6, gives skinned meshes one and the same tangent everywhere:
 ## anisotropy and normal maps need another renderer there.
-## [br]- A material shows the same environment in all viewports.
 ## [br][br]
 ## The shader is generated from the properties and shared by materials of the same kind; what is not
 ## used is not in it. It is not stored with the material, and neither [member ShaderMaterial.shader]
@@ -108,6 +108,17 @@ static var _variants_mutex := Mutex.new()
 		_follow(table, value)
 		table = value
 		_queue_update()
+
+@export_group("Light")
+## A light that the material shows wherever it is, from [method LobeEnvironment3D.get_light],
+## [method LobeProbe3D.get_light] or a file; that of a probe keeps its box. Without one, the
+## material shows the light of where it is: that of its world, and of the [LobeProbe3D]s around each
+## pixel.
+@export var light: LobeLight:
+	set(value):
+		light = value
+		LightRegistry.set_own_light(_rid, light)
+		emit_changed()
 
 @export_group("Transparency")
 ## Whether and how [member albedo]'s alpha makes the surface transparent.

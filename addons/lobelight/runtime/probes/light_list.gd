@@ -49,17 +49,20 @@ func begin_world() -> void:
 	_worlds += 1
 
 
-## [param shift] is added to the light's levels.
+## [param shift] is added to the light's levels; [param bias] is its weight inside its box.
 func add(light: LobeLight, layer: int, shift: float, bias: float, starts_priority: bool) -> void:
-	var half := 0.5 * light.box_size if light.has_box() else _EVERYWHERE * Vector3.ONE
+	var half := _EVERYWHERE * Vector3.ONE
 	var slope := 0.0
 	var to_middle := Vector3.ZERO
 	var moved := Vector3.ZERO
 	var to_light := light.rotation.transposed()
 	if light.has_box():
-		slope = minf(1.0 / maxf(light.blend_distance, 1e-9), _SHARPEST_EDGE)
+		half = 0.5 * light.box_size
 		to_middle = -light.box_origin
 		moved = -(to_light * light.box_middle)
+		# What weighs as much everywhere has no edge.
+		if is_finite(bias):
+			slope = minf(1.0 / maxf(light.blend_distance, 1e-9), _SHARPEST_EDGE)
 	var sharpest := light.get_sharpest()
 	var level := light.get_level()
 	var texels: Array[Vector4] = [
@@ -68,7 +71,7 @@ func add(light: LobeLight, layer: int, shift: float, bias: float, starts_priorit
 		Vector4(to_light.x.z, to_light.y.z, to_light.z.z, moved.z),
 		Vector4(half.x, half.y, half.z, slope),
 		Vector4(to_middle.x, to_middle.y, to_middle.z, layer),
-		Vector4(bias, light.energy, sharpest.x, level.x + shift),
+		Vector4(minf(bias, 1.0), light.energy, sharpest.x, level.x + shift),
 		Vector4(sharpest.y, level.y, level.z, 1.0 if starts_priority else 0.0),
 	]
 	_numbers.resize(4 * WIDTH * (_rows + 1))

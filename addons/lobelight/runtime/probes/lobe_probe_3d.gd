@@ -30,8 +30,9 @@ signal rebuild_finished
 enum UpdateMode {
 	## When the node enters the tree, when its own properties change, and by [method rebuild].
 	ONCE,
-	## Also when the node moves and when the scene's sky changes. Nothing tells of what else
-	## happens in the scene: call [method rebuild] then, or take another mode.
+	## Also when the node moves, and when a lamp that reaches the box is switched, moved or changed.
+	## The scene's lamps are looked at in each frame for it. Nothing tells of what else happens in
+	## the scene: call [method rebuild] then, or take another mode.
 	WHEN_CHANGED,
 	## In every frame.
 	EVERY_FRAME,
@@ -39,18 +40,30 @@ enum UpdateMode {
 	TIME_SLICED,
 }
 
+const FrameWait := preload("../light/frame_wait.gd")
+const LightRegistry := preload("../light/light_registry.gd")
+const Pyramid := preload("../pyramid/pyramid.gd")
+const LampWatch := preload("lamp_watch.gd")
+const ProbeCapture := preload("probe_capture.gd")
+const ProbeSchedule := preload("probe_schedule.gd")
+const ProbeView := preload("probe_view.gd")
+const WorldLight := preload("../light/world_light.gd")
+
 ## The box is at least that long along each axis, in metres.
 const MIN_SIZE := 0.02
 
 # The capture point keeps this distance from the box's faces, as that of a ReflectionProbe does.
 const _MARGIN := 0.01
 const _DEFAULT_SIZE := 20.0
+# Captures after that of a change, each of which brings one more reflection between materials.
+const _ECHOES := 2
 
 ## When the room is captured anew.
 @export var update_mode := UpdateMode.ONCE:
 	set(value):
 		update_mode = value
 		_mark_stale()
+		_watch_lamps()
 		update_configuration_warnings()
 ## A factor for the light.
 @export_range(0.0, 1.0, 0.01, "or_greater") var intensity := 1.0:
@@ -120,26 +133,16 @@ var size := Vector3(_DEFAULT_SIZE, _DEFAULT_SIZE, _DEFAULT_SIZE):
 		light = value
 		_show_baked()
 		_mark_stale()
+		_watch_lamps()
 		_update_placement()
 		notify_property_list_changed()
 		update_configuration_warnings()
-
-const FrameWait := preload("../light/frame_wait.gd")
-const LightRegistry := preload("../light/light_registry.gd")
-const Pyramid := preload("../pyramid/pyramid.gd")
-const ProbeCapture := preload("probe_capture.gd")
-const ProbeSchedule := preload("probe_schedule.gd")
-const ProbeView := preload("probe_view.gd")
-const WorldLight := preload("../light/world_light.gd")
-# Captures after that of a change, each of which brings one more reflection between materials.
-const _ECHOES := 2
 
 var _error := ""
 var _view := ProbeView.new()
 # Whether the light belongs to a world, and whether a capture has been asked for.
 var _is_shown := false
 var _is_awaited := false
-var _is_captured := false
 var _waits: Array[FrameWait] = []
 
 
@@ -237,7 +240,15 @@ func get_light() -> LobeLight:
 	stored.level_variance = _view.light.level_variance
 	stored.base_variance = _view.light.base_variance
 	stored.is_even = _view.light.is_even
+	_place(stored)
 	return stored
+
+
+func _watch_lamps() -> void:
+	if _is_shown and light == null and update_mode == UpdateMode.WHEN_CHANGED:
+		LampWatch.add(_view.light, _mark_stale)
+	else:
+		LampWatch.remove(_view.light)
 
 
 # Why there is nothing to capture, in a sentence; empty if there is.
@@ -259,16 +270,17 @@ func _update_shown() -> void:
 		_update_placement()
 		LightRegistry.add_probe(get_world_3d(), get_instance_id(), _view.light)
 		_mark_stale()
+		_watch_lamps()
 	elif not shown:
 		_leave()
 
 
 func _leave() -> void:
 	ProbeSchedule.drop(_view)
+	LampWatch.remove(_view.light)
 	_is_awaited = false
 	if _is_shown:
 		_is_shown = false
-		_is_captured = false
 		LightRegistry.withdraw(get_instance_id())
 
 
@@ -293,7 +305,6 @@ func _on_captured(succeeded: bool) -> void:
 	_is_awaited = false
 	_error = "" if succeeded else "The renderer did not draw the room."
 	if succeeded:
-		_is_captured = true
 		rebuilt.emit()
 	else:
 		push_warning("LobeProbe3D: " + _error)
@@ -305,6 +316,7 @@ func _on_captured(succeeded: bool) -> void:
 # Takes the faces of the baked light, which other probes may have as well, each at its own place.
 func _show_baked() -> void:
 	var before := _view.light
+	LampWatch.remove(before)
 	_view.light = LobeLight.new()
 	if light != null:
 		var problem := light.get_problem()
@@ -338,16 +350,19 @@ func _mark_stale() -> void:
 func _update_placement() -> void:
 	if not _is_shown:
 		return
+	_place(_view.light)
+	LightRegistry.update_placement(_view.light)
+
+
+func _place(placed: LobeLight) -> void:
 	var box := get_box()
-	var shown := _view.light
-	shown.rotation = box.basis
-	shown.box_middle = box.origin
-	shown.box_size = size
-	shown.box_origin = origin_offset
-	shown.blend_distance = blend_distance
-	shown.priority = priority
-	shown.energy = intensity
-	LightRegistry.update_placement(shown)
+	placed.rotation = box.basis
+	placed.box_middle = box.origin
+	placed.box_size = size
+	placed.box_origin = origin_offset
+	placed.blend_distance = blend_distance
+	placed.priority = priority
+	placed.energy = intensity
 
 
 func _clamp_origin(point: Vector3) -> Vector3:

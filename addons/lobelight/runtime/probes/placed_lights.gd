@@ -1,7 +1,8 @@
 @tool
 extends RefCounted
-## The lights of all places, as the shader finds them by where a pixel is (placed_light.gdshaderinc):
-## a list of the lights of each world, and the textures that they are in.
+## The lights of all places, as the shader finds them by where a pixel is
+## (placed_light.gdshaderinc): a list of the lights of each world, and the textures that they are
+## in.
 ##
 ## The list is a texture that all materials share, so that a light which moves costs them nothing.
 
@@ -12,7 +13,7 @@ const LightStore := preload("light_store.gd")
 const WorldCameras := preload("world_cameras.gd")
 
 ## Worlds that can be told from one another; those beyond show the first one's lights.
-const MAX_WORLDS := 8
+const MAX_WORLDS := 4
 
 var _list := LightList.new()
 var _store: LightStore = LightStore.make()
@@ -28,6 +29,17 @@ var _given: Array[RID] = []
 
 func _init() -> void:
 	_store.on_change = LightRegistry.refresh
+
+
+## The list for a material that has a light of its own, with a box, as its environment.
+static func make_list(light: LobeLight) -> Texture2D:
+	var list := LightList.new()
+	list.begin()
+	list.begin_world()
+	# It does not end outside the box.
+	list.add(light, LightList.ENVIRONMENT, 0.0, INF, true)
+	list.end()
+	return list.texture
 
 
 ## To be called before it is let go of.

@@ -1,7 +1,7 @@
 @tool
 extends Object
-## Captures probes one after the other, a few views in each frame: those that look largest first, and
-## those that have waited. Nothing is called while there is nothing to capture.
+## Captures probes one after the other, a few views in each frame: those that look largest first,
+## and those that have waited. Nothing is called while there is nothing to capture.
 
 const FrameWait := preload("../light/frame_wait.gd")
 const LightRegistry := preload("../light/light_registry.gd")

@@ -2,8 +2,8 @@
 extends RefCounted
 ## Tells shaders which world they draw: four bits of the cull masks of its cameras.
 ##
-## CAMERA_VISIBLE_LAYERS is all that a shader sees of the world it is drawn in. Layers end at 20, and
-## the editor's own begin at 24. The masks are changed on the rendering server only, so that
+## CAMERA_VISIBLE_LAYERS is all that a shader sees of the world it is drawn in. Layers end at 20,
+## and the editor's own begin at 24. The masks are changed on the rendering server only, so that
 ## [member Camera3D.cull_mask] stays what it is; and as nodes hand theirs on when they like, it is
 ## done in each frame while there are several worlds.
 

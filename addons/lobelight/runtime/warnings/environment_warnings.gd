@@ -3,6 +3,7 @@ extends Object
 ## What keeps a [LobeEnvironment3D] from lighting its scene as it could, each in a sentence or two
 ## that say what to do. The scene tree and the inspector show them; players never look.
 
+const LightSettings := preload("../light/light_settings.gd")
 const Pyramid := preload("../pyramid/pyramid.gd")
 
 # A panorama of as many texels around shows lamps as boxes on smooth materials.
@@ -25,9 +26,12 @@ static func of(environment: LobeEnvironment3D, root: Node) -> PackedStringArray:
 		warnings.append(
 			"Size is only %d texels, which smooth materials show: take 256." % environment.size
 		)
-	if _takes_panorama(environment):
+	var source := LightSettings.decide(
+		environment.source as LightSettings.Source, environment.panorama != null
+	)
+	if source == LightSettings.Source.PANORAMA:
 		warnings.append_array(_of_own_panorama(environment.panorama))
-	elif environment.source == LobeEnvironment3D.Source.CAPTURE:
+	elif source == LightSettings.Source.CAPTURE:
 		warnings.append_array(_of_capture(environment, root))
 	elif root != null:
 		warnings.append_array(_of_sky(root))
@@ -45,12 +49,6 @@ static func of(environment: LobeEnvironment3D, root: Node) -> PackedStringArray:
 
 static func is_compatibility() -> bool:
 	return RenderingServer.get_current_rendering_method() == "gl_compatibility"
-
-
-static func _takes_panorama(environment: LobeEnvironment3D) -> bool:
-	if environment.source == LobeEnvironment3D.Source.AUTOMATIC:
-		return environment.panorama != null
-	return environment.source == LobeEnvironment3D.Source.PANORAMA
 
 
 static func _of_own_panorama(panorama: Texture2D) -> PackedStringArray:
