@@ -91,7 +91,7 @@ func test_a_capture_reaches_all_of_the_box() -> void:
 
 func test_what_leaves_no_light_is_told() -> void:
 	var probe := _make()
-	probe.light = LobeLight.new()
+	probe.light = LobeLight.make_dark(true)
 	assert_array(probe._get_configuration_warnings()).is_empty()
 	probe.update_mode = LobeProbe3D.UpdateMode.TIME_SLICED
 	assert_str(probe._get_configuration_warnings()[0]).contains("Update Mode does nothing")

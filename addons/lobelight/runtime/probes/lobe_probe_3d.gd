@@ -321,7 +321,12 @@ func _show_baked() -> void:
 	if light != null:
 		var problem := light.get_problem()
 		if problem:
-			push_error("LobeProbe3D: %s: %s" % [light.resource_path, problem])
+			push_error(
+				(
+					"LobeProbe3D: %s: %s"
+					% [light.resource_path if light.resource_path else "Light", problem]
+				)
+			)
 		else:
 			_view.light.faces = light.faces
 			_view.light.size = light.size
