@@ -16,6 +16,7 @@ const MeasuredImporter := preload("import/measured_importer.gd")
 const PanoramaImporter := preload("import/panorama_importer.gd")
 const ProbeGizmo := preload("gizmos/probe_gizmo.gd")
 const ProbeInspector := preload("probes/probe_inspector.gd")
+const ProjectSettingsPage := preload("project_settings.gd")
 const SceneConversionMenu := preload("scene_conversion_menu.gd")
 const TableInspector := preload("bake/table_inspector.gd")
 const TangentWarning := preload("tangent_warning.gd")
@@ -40,6 +41,7 @@ var _probe_inspector: ProbeInspector
 
 
 func _enter_tree() -> void:
+	ProjectSettingsPage.register()
 	_export_plugin = ExportPlugin.new()
 	add_export_plugin(_export_plugin)
 	for to_lobes: bool in [true, false]:

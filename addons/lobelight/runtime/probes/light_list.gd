@@ -2,7 +2,7 @@
 extends RefCounted
 ## The lights of all worlds as a texture of numbers, read by placed_light.gdshaderinc.
 ##
-## Row 0 has, for each world, the first of its rows. A light is a row of seven texels:
+## Row 0 has, for each world, its first row and the one behind its last. A light is a row of seven texels:
 ## [codeblock lang=text]
 ## 0 … 2   rows of the rotation from the world to the light; w: what is added, so that the middle of
 ##         the box is at 0
@@ -46,6 +46,7 @@ func begin() -> void:
 func begin_world() -> void:
 	for column in range(_worlds, WIDTH if _worlds == 0 else _worlds + 1):
 		_numbers[4 * column] = _rows
+		_numbers[4 * column + 1] = _rows
 	_worlds += 1
 
 
@@ -79,6 +80,9 @@ func add(light: LobeLight, layer: int, shift: float, bias: float, starts_priorit
 		for j in 4:
 			_numbers[4 * (WIDTH * _rows + i) + j] = texels[i][j]
 	_rows += 1
+	for column in WIDTH:
+		if _numbers[4 * column] == _numbers[4 * (_worlds - 1)]:
+			_numbers[4 * column + 1] = _rows
 
 
 ## Hands the list to the GPU if it is another one.

@@ -10,6 +10,8 @@ const PyramidCube := preload("../pyramid/pyramid_cube.gd")
 ## The setting with the texels along the side of a face of a probe's light, a power of two.
 const SETTING := "lobelight/probes/size"
 const DEFAULT_SIZE := 256
+## The same on phones.
+const DEFAULT_MOBILE_SIZE := 128
 ## The layer of lights that have no place.
 const NO_PLACE := -100
 const _MIN_SIZE := 16
@@ -31,7 +33,7 @@ static func make() -> RefCounted:
 
 ## What the project says of the size of probes.
 static func find_size() -> int:
-	var value: int = DEFAULT_SIZE
+	var value: int = DEFAULT_MOBILE_SIZE if OS.has_feature("mobile") else DEFAULT_SIZE
 	if ProjectSettings.has_setting(SETTING):
 		value = ProjectSettings.get_setting_with_override(SETTING)
 	return clampi(nearest_po2(maxi(value, 1)), _MIN_SIZE, _MAX_SIZE)

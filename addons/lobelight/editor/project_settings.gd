@@ -1,0 +1,33 @@
+@tool
+extends Object
+## What the project settings say of probes, with defaults and ranges.
+
+const LightStore := preload("../runtime/probes/light_store.gd")
+const ProbeSchedule := preload("../runtime/probes/probe_schedule.gd")
+
+
+## Shows the settings in the dialog. They are stored where they are not at their defaults.
+static func register() -> void:
+	_add(
+		LightStore.SETTING,
+		LightStore.DEFAULT_SIZE,
+		PROPERTY_HINT_ENUM,
+		"32:32,64:64,128:128,256:256,512:512"
+	)
+	_add(
+		LightStore.SETTING + ".mobile",
+		LightStore.DEFAULT_MOBILE_SIZE,
+		PROPERTY_HINT_ENUM,
+		"32:32,64:64,128:128,256:256,512:512"
+	)
+	_add(ProbeSchedule.SETTING, ProbeSchedule.DEFAULT_VIEWS, PROPERTY_HINT_RANGE, "1,6,1")
+
+
+static func _add(name: String, value: int, hint: PropertyHint, range_of_values: String) -> void:
+	if not ProjectSettings.has_setting(name):
+		ProjectSettings.set_setting(name, value)
+	ProjectSettings.set_initial_value(name, value)
+	ProjectSettings.set_as_basic(name, true)
+	ProjectSettings.add_property_info(
+		{"name": name, "type": TYPE_INT, "hint": hint, "hint_string": range_of_values}
+	)
