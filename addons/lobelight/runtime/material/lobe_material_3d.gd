@@ -457,7 +457,7 @@ func to_standard() -> BaseMaterial3D:
 ## with the same lobes override it.
 func _get_fragment_path() -> String:
 	var folder: String = (LobeMaterial3D as Script).resource_path.get_base_dir()
-	return folder.path_join("../shaders/material.gdshaderinc")
+	return folder.path_join("../shaders/material.gdshaderinc").simplify_path()
 
 
 func _follow(before: Resource, after: Resource) -> void:
