@@ -87,6 +87,7 @@ const EnvironmentSource := preload("environment_source.gd")
 const FrameWait := preload("frame_wait.gd")
 const LightRegistry := preload("light_registry.gd")
 const LightSettings := preload("light_settings.gd")
+const LiveTextures := preload("live_textures.gd")
 const Pyramid := preload("../pyramid/pyramid.gd")
 const PyramidChain := preload("../pyramid/pyramid_chain.gd")
 
@@ -227,6 +228,7 @@ var _slice := _WHOLE
 var _drawn := false
 var _idle := 0
 var _waits: Array[FrameWait] = []
+var _is_watching := false
 # Captures that are still to follow, and whether materials have shown no light but the node's
 # captures since these began without any; whether they show none at the moment.
 var _echoes := 0
@@ -245,10 +247,7 @@ func _init() -> void:
 	set_notify_transform(true)
 	_settings.node = self
 	_settings.on_panorama_changed = _on_panorama_changed
-	# Servers load scenes without a renderer and need no light.
-	if Pyramid.has_renderer():
-		RenderingServer.frame_pre_draw.connect(_on_frame_pre_draw)
-		RenderingServer.frame_post_draw.connect(_on_frame_post_draw)
+	_watch_frames()
 
 
 func _notification(what: int) -> void:
@@ -352,7 +351,7 @@ func _wait() -> bool:
 	while _running:
 		if FrameWait.is_rendering_paused():
 			_stop()
-			_stale = true
+			_mark_stale()
 			_error = "Rendering is paused, so nothing is drawn."
 			break
 		await wait.went_on
@@ -369,6 +368,28 @@ func _stop() -> void:
 
 func _mark_stale() -> void:
 	_stale = true
+	_watch_frames()
+
+
+# Servers load scenes without a renderer and need no light.
+func _watch_frames() -> void:
+	if not _is_watching and Pyramid.has_renderer():
+		_is_watching = true
+		RenderingServer.frame_pre_draw.connect(_on_frame_pre_draw)
+		RenderingServer.frame_post_draw.connect(_on_frame_post_draw)
+
+
+# While nothing can change but by what calls the node, nothing is called in each frame.
+func _rest_if_settled() -> void:
+	if _stale or _running or _chain != null or _echoes > 0:
+		return
+	var is_still := update_mode == UpdateMode.ONCE
+	if update_mode == UpdateMode.WHEN_CHANGED and _light_kind == EnvironmentSource.Kind.PANORAMA:
+		is_still = _settings.takes_panorama() and not LiveTextures.is_live(panorama)
+	if is_still:
+		_is_watching = false
+		RenderingServer.frame_pre_draw.disconnect(_on_frame_pre_draw)
+		RenderingServer.frame_post_draw.disconnect(_on_frame_post_draw)
 
 
 func _on_panorama_changed() -> void:
@@ -391,6 +412,8 @@ func _on_frame_pre_draw() -> void:
 		if _idle > _IDLE_FRAMES or update_mode == UpdateMode.ONCE and not measure_cost:
 			_gpu_time = update_gpu_time
 			_chain = null
+	if _chain == null:
+		_rest_if_settled()
 
 
 func _start_if_due() -> void:
@@ -440,6 +463,7 @@ func _begin(slice: int) -> bool:
 	_prepare_capture()
 	_running = true
 	_drawn = false
+	_watch_frames()
 	return true
 
 
@@ -507,7 +531,7 @@ func _leave_world() -> void:
 	if _light_kind == EnvironmentSource.Kind.PANORAMA and not _running:
 		return
 	if _source.leave_world():
-		_stale = true
+		_mark_stale()
 		_chain = null
 		_stop()
 
@@ -520,7 +544,7 @@ func _check_in() -> void:
 	_active = is_active()
 	if _active and _light_kind == EnvironmentSource.Kind.SCENE_VIEWS and not _lit_by_itself:
 		# It was captured in another's light.
-		_stale = true
+		_mark_stale()
 	if not _active or _light == null and not _in_the_dark:
 		LightRegistry.withdraw(get_instance_id())
 		# The old light stays until this one has been made.
