@@ -339,12 +339,19 @@ func test_environments_are_found_in_the_tree_and_outside() -> void:
 func test_the_report_names_what_the_scene_uses() -> void:
 	var root := _make_scene()
 	root.add_child(LobeEnvironment3D.new())
+	var probe := LobeProbe3D.new()
+	probe.name = "Hall"
+	probe.size.y = 0.05
+	root.add_child(probe)
 	var report := SceneReport.describe(root)
 	assert_str(report).contains("Materials: 1")
 	assert_str(report).contains("steel: 1 fetch of the environment")
 	assert_str(report).contains("on 1 node")
 	assert_str(report).contains("Environments: 1")
-	assert_str(report).contains("To be looked at:")
+	assert_str(report).contains("Probes: 1").contains("Hall: captured live")
+	assert_str(report).contains("To be looked at:").contains("Hall: The box is only 0.05 m thick")
+	probe.light = LobeLight.make_dark(true)
+	assert_str(SceneReport.describe(root)).contains("Hall: baked, 1 texels, 64 B")
 	var sphere: MeshInstance3D = root.get_child(0)
 	sphere.name = "Ball"
 	sphere.material_override.resource_name = ""

@@ -24,6 +24,9 @@ static func describe(root: Node) -> String:
 	lines.append("Environments: %d" % usage.environments.size())
 	for environment in usage.environments:
 		lines.append("  " + _describe_environment(environment, root))
+	lines.append("Probes: %d" % usage.probes.size())
+	for probe in usage.probes:
+		lines.append("  " + _describe_probe(probe, root))
 	var warnings := SceneWarnings.of_scene(root)
 	if not warnings.is_empty():
 		lines.append("To be looked at:")
@@ -67,9 +70,19 @@ static func _describe_environment(environment: LobeEnvironment3D, root: Node) ->
 	var cube := environment.get_cubemap()
 	var memory := "no light yet"
 	if cube != null:
-		var bytes := int(_CUBE_BYTES * cube.get_width() * cube.get_width())
-		memory = "%d texels, %s" % [cube.get_width(), String.humanize_size(bytes)]
+		memory = _describe_cube(cube.get_width())
 	return "%s: %s, %s" % [root.get_path_to(environment), source.to_lower(), memory]
+
+
+static func _describe_probe(probe: LobeProbe3D, root: Node) -> String:
+	var light := probe.light
+	if light == null:
+		return "%s: captured live" % root.get_path_to(probe)
+	return "%s: baked, %s" % [root.get_path_to(probe), _describe_cube(light.size)]
+
+
+static func _describe_cube(size: int) -> String:
+	return "%d texels, %s" % [size, String.humanize_size(int(_CUBE_BYTES * size * size))]
 
 
 # What a resource has no name for, users know by where it is.

@@ -1,6 +1,6 @@
 @tool
 extends RefCounted
-## What a scene has of Lobelight: its materials, their tables, and its environments.
+## What a scene has of Lobelight: its materials, their tables, its environments and its probes.
 
 const TangentWarning := preload("../tangent_warning.gd")
 
@@ -8,6 +8,7 @@ const TangentWarning := preload("../tangent_warning.gd")
 var materials: Dictionary[LobeMaterial3D, Array] = {}
 var tables: Array[LobeTable] = []
 var environments: Array[LobeEnvironment3D] = []
+var probes: Array[LobeProbe3D] = []
 ## Nodes whose meshes lack the tangents that their materials need.
 var without_tangents: Array[MeshInstance3D] = []
 
@@ -40,6 +41,8 @@ static func find_environments(root: Node) -> Array[LobeEnvironment3D]:
 func _look_at(node: Node) -> void:
 	if node is LobeEnvironment3D:
 		environments.append(node)
+	if node is LobeProbe3D:
+		probes.append(node)
 	for material in find_materials(node):
 		if not materials.has(material):
 			materials[material] = []

@@ -3,6 +3,7 @@ extends Object
 ## What keeps a scene from looking as it could, each in a sentence or two that say what to do.
 
 const EnvironmentWarnings := preload("../../runtime/warnings/environment_warnings.gd")
+const ProbeWarnings := preload("../../runtime/warnings/probe_warnings.gd")
 const TableChoice := preload("../../runtime/material/table_choice.gd")
 const WidthsTexture := preload("../../runtime/table/widths_texture.gd")
 const SceneUsage := preload("../menu/scene_usage.gd")
@@ -16,6 +17,9 @@ static func of_scene(root: Node) -> PackedStringArray:
 		warnings.append(_without_environment())
 	for environment in usage.environments:
 		warnings.append_array(of_environment(environment, root))
+	for probe in usage.probes:
+		for warning in ProbeWarnings.of(probe):
+			warnings.append("%s: %s" % [root.get_path_to(probe), warning])
 	for material in usage.materials:
 		warnings.append_array(_of_properties(material))
 	for instance in usage.without_tangents:
