@@ -234,3 +234,73 @@ func test_questions_leave_what_is_drawn() -> void:
 	material.get_shader_code()
 	assert_int(material._choice.table.get_instance_id()).is_equal(table)
 	assert_int(material._choice.coat.get_instance_id()).is_equal(coat)
+
+
+# What draws the material knows no more of it than this copy.
+func test_all_that_is_drawn_is_taken_from_the_properties() -> void:
+	var checked := 0
+	for property: Dictionary in LobeMaterial3D.MaterialInputs.new().get_property_list():
+		var name: String = property["name"]
+		if property["usage"] & PROPERTY_USAGE_SCRIPT_VARIABLE and name != "rid":
+			var material := LobeMaterial3D.new()
+			var before: Variant = material.get(name)
+			assert_that(LobeMaterial3D.MaterialInputs.new().get(name)).is_equal(before)
+			material.set(name, _another(property, before))
+			assert_bool(material.get(name) == before).append_failure_message(name).is_false()
+			assert_that(material._get_inputs().get(name)).is_equal(material.get(name))
+			checked += 1
+	# Albedo and a light go ways of their own.
+	assert_int(checked).is_equal(_count_properties() - 2)
+
+
+func _another(property: Dictionary, before: Variant) -> Variant:
+	match property["type"] as Variant.Type:
+		TYPE_BOOL:
+			return not before
+		TYPE_INT:
+			return 1 - int(before > 0)
+		TYPE_FLOAT:
+			return 0.75
+		TYPE_COLOR:
+			return Color(0.5, 0.25, 0.125)
+		TYPE_VECTOR2:
+			return Vector2(2.0, 3.0)
+	match property["class_name"] as StringName:
+		&"LobeTable":
+			return _make_table(2, 1)
+		&"LobeTableSet":
+			return LobeTableSet.new()
+	return PlaceholderTexture2D.new()
+
+
+func _count_properties() -> int:
+	return (LobeMaterial3D as Script).get_script_property_list().reduce(
+		func(sum: int, property: Dictionary) -> int:
+			return sum + int(property["usage"] & PROPERTY_USAGE_DEFAULT == PROPERTY_USAGE_DEFAULT),
+		0
+	)
+
+
+# They are compared with one another.
+func test_choices_are_numbered_as_godots() -> void:
+	var own: Array[Dictionary] = [
+		LobeMaterial3D.Transparency,
+		LobeMaterial3D.BlendMode,
+		LobeMaterial3D.CullMode,
+		LobeMaterial3D.TextureChannel,
+		LobeMaterial3D.EmissionOperator,
+	]
+	var prefixes: PackedStringArray = [
+		"TRANSPARENCY_", "BLEND_MODE_", "CULL_", "TEXTURE_CHANNEL_", "EMISSION_OP_"
+	]
+	var renamed := {
+		"BLEND_MODE_SUBTRACT": "BLEND_MODE_SUB",
+		"BLEND_MODE_MULTIPLY": "BLEND_MODE_MUL",
+		"BLEND_MODE_PREMULTIPLIED_ALPHA": "BLEND_MODE_PREMULT_ALPHA",
+	}
+	for kind in own.size():
+		for name: String in own[kind]:
+			var godots := prefixes[kind] + name
+			godots = renamed.get(godots, godots)
+			var number := ClassDB.class_get_integer_constant(&"BaseMaterial3D", godots)
+			assert_int(own[kind][name]).append_failure_message(godots).is_equal(number)

@@ -166,8 +166,8 @@ func test_3d_textures_of_too_many_layers_are_refused() -> void:
 	for count: int in [22, 23]:
 		var tables := _make_set_of(count)
 		assert_str(tables.get_problem()).is_empty()
-		assert_str(WidthsTexture.find_problem(tables, true)).is_empty()
-		var problem := WidthsTexture.find_problem(tables, false)
+		assert_str(WidthsTexture.find_problem(tables.widths, true)).is_empty()
+		var problem := WidthsTexture.find_problem(tables.widths, false)
 		var material := LobeMaterial3D.new()
 		material.table_set = tables
 		material.roughness_texture = ImageTexture.new()

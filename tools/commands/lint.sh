@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# checks the form of C++, GDScript and shell code ([--fix] [--json FILE])
+# checks the form of C++, GDScript and shell code, and who knows whom in the run time ([--fix] [--json FILE])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 fix=false
@@ -78,6 +78,8 @@ check clang-format "${#cpp[@]}" clang_format
 check gdformat "${#gdscript[@]}" "$bin/gdformat" --line-length 100 --check "${gdscript[@]}"
 check gdlint "${#gdscript[@]}" "$bin/gdlint" "${gdscript[@]}"
 check shellcheck "${#shell[@]}" shellcheck "${shell[@]}"
+mapfile -t runtime < <(files '*.gd' | grep '^./addons/lobelight/runtime/')
+check arrows "${#runtime[@]}" "$PYTHON" tools/lint/arrows.py
 
 if [[ -n $json ]]; then
   list=$(printf '%s, ' "${results[@]}")

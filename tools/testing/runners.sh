@@ -257,10 +257,12 @@ run_renderers() {
   judge renderers
 }
 
-# The judge of the runners.
+# The judge of the runners, and what ./dev lint finds in the run time.
 run_harness() {
   run_logged harness in_time "$PYTHON" "$ROOT/tools/testing/results_test.py"
   judge harness
+  run_logged arrows in_time "$PYTHON" "$ROOT/tools/lint/arrows_test.py"
+  judge arrows
 }
 
 # The stand-in for gdUnit4.

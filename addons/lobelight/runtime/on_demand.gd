@@ -10,7 +10,6 @@ const PLACES := "probes and lights of several worlds"
 const CONVERSION := "conversion between materials"
 const RENDERING_DEVICE := "the renderers Forward+ and Mobile"
 const COMPATIBILITY := "the renderer Compatibility"
-const PROBES := "probes and several worlds"
 
 # Kept, as what is preloaded is.
 static var _loaded: Dictionary[String, Resource] = {}

@@ -7,7 +7,6 @@ extends RefCounted
 
 const LobeEnvironment := preload("../../runtime/light/lobe_environment_3d.gd")
 const LightSettings := preload("../../runtime/light/light_settings.gd")
-const MaterialShader := preload("../../runtime/material/material_shader.gd")
 const OnDemand := preload("../../runtime/on_demand.gd")
 
 const RUN_TIME := "res://addons/lobelight/runtime/"
@@ -23,7 +22,7 @@ const FOLDERS: Dictionary[String, String] = {
 	"conversion": OnDemand.CONVERSION,
 	"diffuse": DIFFUSE,
 	"filters": OnDemand.FILTERS,
-	"probes": OnDemand.PROBES,
+	"probes": OnDemand.PLACES,
 	"rendering_device": OnDemand.RENDERING_DEVICE,
 	"skies": OnDemand.SKIES,
 	"warnings": WARNINGS,
@@ -35,7 +34,7 @@ const _WORDS: Dictionary[String, String] = {
 	OnDemand.FILTERS: "filter",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D",
 	OnDemand.CONVERSION: "from_standard|to_standard|get_losses_from",
-	OnDemand.PROBES: "LobeProbe3D|own_world_3d|world_3d",
+	OnDemand.PLACES: "LobeProbe3D|own_world_3d|world_3d|fade_time",
 }
 const _METHOD := "rendering/renderer/rendering_method"
 const _FALLBACK := "rendering/rendering_device/fallback_to_opengl3"
@@ -88,7 +87,7 @@ func look_at_renderers() -> void:
 func look_at_material(file: String, material: LobeMaterial3D) -> void:
 	if material.clearcoat > 0.0:
 		add(COAT, file)
-	if MaterialShader.is_dielectric(material):
+	if material._get_inputs().is_dielectric():
 		add(DIFFUSE, file)
 
 
@@ -110,13 +109,15 @@ func look_at_node(file: String, properties: Dictionary, is_instance: bool) -> vo
 	for feature: String in properties.get(DECLARATION, []):
 		add(feature, file)
 	if properties.get("own_world_3d", false) or properties.has("world_3d"):
-		add(OnDemand.PROBES, file)
+		add(OnDemand.PLACES, file)
 	var script: Script = properties.get("script") as Script
 	while script != null and script != LobeEnvironment:
 		script = script.get_base_script()
 	if script == null:
 		return
 	environments.append([file, properties])
+	if properties.get("fade_time", 0.0) > 0.0:
+		add(OnDemand.PLACES, file)
 	var source: int = properties.get("source", LobeEnvironment3D.Source.AUTOMATIC)
 	var has_panorama := properties.get("panorama") is Texture2D
 	source = LightSettings.decide(source as LightSettings.Source, has_panorama)

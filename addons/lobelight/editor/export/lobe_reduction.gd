@@ -174,7 +174,7 @@ static func _can_edit(file: String) -> bool:
 static func _get_set(material: LobeMaterial3D) -> LobeTableSet:
 	if material.get_script() != LobeMaterial3D or material.table != null:
 		return null
-	if material.clearcoat > 0.0 or TableChoice.varies(material):
+	if material.clearcoat > 0.0 or material._get_inputs().varies():
 		return null
 	var found := material.table_set
 	if found == null and ResourceLoader.exists(TableChoice.DEFAULT_SET):

@@ -228,7 +228,7 @@ func _include(file: String, material: LobeMaterial3D) -> void:
 	reach.add_user(file)
 	if material.table == null:
 		var anisotropies := _all_of("anisotropy", material.anisotropy)
-		if TableChoice.varies(material):
+		if material._get_inputs().varies():
 			if anisotropies.max() == 0.0 and anisotropies.min() == 0.0:
 				reach.isotropic_because = "%s has a texture of widths" % file
 			else:

@@ -53,10 +53,12 @@ static func _of_properties(material: LobeMaterial3D) -> PackedStringArray:
 		warnings.append("The material's table has no lobes yet: open it and press Bake.")
 	if material.table_set != null and not material.table_set.get_problem().is_empty():
 		warnings.append("The material's set of tables cannot be used: choose one of the addon's.")
-	elif material.table == null and TableChoice.varies(material):
-		var tables := TableChoice.get_set(material)
+	elif material.table == null and material._get_inputs().varies():
+		var tables := TableChoice.get_set(material._get_inputs())
 		var is_isotropic := material.anisotropy == 0.0
-		var problem := "" if tables == null else WidthsTexture.find_problem(tables, is_isotropic)
+		var problem := ""
+		if tables != null:
+			problem = WidthsTexture.find_problem(tables.widths, is_isotropic)
 		if problem:
 			warnings.append("Its textures do not change its lobes: " + problem)
 	if (

@@ -83,7 +83,8 @@ func from_standard(source: BaseMaterial3D) -> LobeMaterial3D:
 	return made
 
 
-func to_standard(source: LobeMaterial3D) -> BaseMaterial3D:
+func to_standard(shown: ShaderMaterial) -> BaseMaterial3D:
+	var source := shown as LobeMaterial3D
 	var packed := (
 		source.orm_texture != null
 		and source.roughness == 1.0

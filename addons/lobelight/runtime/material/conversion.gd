@@ -14,8 +14,8 @@ static func find() -> RefCounted:
 	return script.new() if script != null else null
 
 
-@abstract func from_standard(source: BaseMaterial3D) -> LobeMaterial3D
+@abstract func from_standard(source: BaseMaterial3D) -> ShaderMaterial
 
-@abstract func to_standard(source: LobeMaterial3D) -> BaseMaterial3D
+@abstract func to_standard(source: ShaderMaterial) -> BaseMaterial3D
 
 @abstract func get_losses(source: BaseMaterial3D) -> PackedStringArray

@@ -68,6 +68,7 @@ enum EmissionOperator {
 
 const Conversion := preload("conversion.gd")
 const LightRegistry := preload("../light/light_registry.gd")
+const MaterialInputs := preload("material_inputs.gd")
 const MaterialParameters := preload("material_parameters.gd")
 const MaterialShader := preload("material_shader.gd")
 const TableChoice := preload("table_choice.gd")
@@ -167,7 +168,7 @@ static var _variants_mutex := Mutex.new()
 @export var albedo := Color.WHITE:
 	set(value):
 		albedo = value
-		MaterialParameters.set_albedo(self)
+		MaterialParameters.set_albedo(get_rid(), albedo)
 		emit_changed()
 ## Multiplied with [member albedo].
 @export var albedo_texture: Texture2D:
@@ -354,6 +355,7 @@ static var _variants_mutex := Mutex.new()
 var _rid := get_rid()
 var _queued := false
 var _shader: Shader
+var _inputs := MaterialInputs.new()
 # What the lobes come from, and the rendering server's textures, kept alive.
 var _choice := TableChoice.new()
 # A light that comes while a thread loads the material has the main thread look at it as well.
@@ -379,7 +381,7 @@ static func widths_of(roughness_of_surface: float, anisotropy_of_surface: float)
 ## one of them; elsewhere they give [code]null[/code] and nothing, with an error.
 static func from_standard(source: BaseMaterial3D) -> LobeMaterial3D:
 	var conversion: Conversion = Conversion.find()
-	return conversion.from_standard(source) if conversion != null else null
+	return conversion.from_standard(source) as LobeMaterial3D if conversion != null else null
 
 
 ## The properties of a material of Godot's that [method from_standard] cannot take over and that are
@@ -391,7 +393,7 @@ static func get_losses_from(source: BaseMaterial3D) -> PackedStringArray:
 
 func _init() -> void:
 	LightRegistry.add_material(_rid, _queue_update)
-	MaterialParameters.set_albedo(self)
+	MaterialParameters.set_albedo(get_rid(), albedo)
 	_queue_update()
 
 
@@ -418,8 +420,8 @@ func _validate_property(property: Dictionary) -> void:
 ## [code]#include[/code].
 func get_shader_code() -> String:
 	_mutex.lock()
-	_choice.choose(self)
-	var code := MaterialShader.get_code(self, _choice) + '#include "%s"\n' % _get_fragment_path()
+	_look()
+	var code := MaterialShader.get_code(_inputs, _choice) + '#include "%s"\n' % _get_fragment_path()
 	_mutex.unlock()
 	return code
 
@@ -428,7 +430,7 @@ func get_shader_code() -> String:
 ## that has none the engine makes some up, across the normal; the inspector of its node warns of it.
 func needs_tangents() -> bool:
 	_mutex.lock()
-	_choice.choose(self)
+	_look()
 	var needed := normal_texture != null or not _choice.is_isotropic
 	_mutex.unlock()
 	return needed
@@ -439,8 +441,8 @@ func needs_tangents() -> bool:
 ## besides those of the material's own textures.
 func get_fetches() -> Dictionary[String, int]:
 	_mutex.lock()
-	_choice.choose(self)
-	var fetches := MaterialShader.count_fetches(self, _choice)
+	_look()
+	var fetches := MaterialShader.count_fetches(_inputs, _choice)
 	_mutex.unlock()
 	return fetches
 
@@ -475,6 +477,61 @@ func _queue_update() -> void:
 	emit_changed()
 
 
+# Looks anew at the properties, and at what the lobes come from.
+func _look() -> void:
+	_write_inputs(_inputs)
+	_choice.choose(_inputs)
+
+
+# What the material says of its surface, for the addon's own scripts.
+func _get_inputs() -> MaterialInputs:
+	var inputs := MaterialInputs.new()
+	_write_inputs(inputs)
+	return inputs
+
+
+func _write_inputs(inputs: MaterialInputs) -> void:
+	inputs.rid = _rid
+	inputs.table_set = table_set
+	inputs.table = table
+	inputs.transparency = transparency as BaseMaterial3D.Transparency
+	inputs.alpha_scissor_threshold = alpha_scissor_threshold
+	inputs.alpha_hash_scale = alpha_hash_scale
+	inputs.blend_mode = blend_mode as BaseMaterial3D.BlendMode
+	inputs.cull_mode = cull_mode as BaseMaterial3D.CullMode
+	inputs.vertex_color_use_as_albedo = vertex_color_use_as_albedo
+	inputs.vertex_color_is_srgb = vertex_color_is_srgb
+	inputs.albedo_texture = albedo_texture
+	inputs.orm_texture = orm_texture
+	inputs.metallic = metallic
+	inputs.specular = specular
+	inputs.metallic_texture = metallic_texture
+	inputs.metallic_texture_channel = metallic_texture_channel as BaseMaterial3D.TextureChannel
+	inputs.roughness = roughness
+	inputs.roughness_texture = roughness_texture
+	inputs.roughness_texture_channel = roughness_texture_channel as BaseMaterial3D.TextureChannel
+	inputs.anisotropy = anisotropy
+	inputs.anisotropy_flowmap = anisotropy_flowmap
+	inputs.anisotropy_rotation = anisotropy_rotation
+	inputs.normal_texture = normal_texture
+	inputs.normal_scale = normal_scale
+	inputs.clearcoat = clearcoat
+	inputs.clearcoat_roughness = clearcoat_roughness
+	inputs.clearcoat_texture = clearcoat_texture
+	inputs.ao_texture = ao_texture
+	inputs.ao_texture_channel = ao_texture_channel as BaseMaterial3D.TextureChannel
+	inputs.ao_on_uv2 = ao_on_uv2
+	inputs.ao_light_affect = ao_light_affect
+	inputs.emission = emission
+	inputs.emission_energy = emission_energy
+	inputs.emission_operator = emission_operator as BaseMaterial3D.EmissionOperator
+	inputs.emission_texture = emission_texture
+	inputs.uv1_scale = uv1_scale
+	inputs.uv1_offset = uv1_offset
+	inputs.texture_filter = texture_filter
+	inputs.texture_repeat = texture_repeat
+
+
 func _update() -> void:
 	_mutex.lock()
 	_queued = false
@@ -482,7 +539,7 @@ func _update() -> void:
 	if _shader == null or _shader.code != code:
 		_shader = _get_variant(code)
 		RenderingServer.material_set_shader(_rid, _shader.get_rid())
-	MaterialParameters.apply(self, _choice)
+	MaterialParameters.apply(_inputs, _choice)
 	_mutex.unlock()
 
 

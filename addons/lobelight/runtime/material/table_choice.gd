@@ -2,6 +2,7 @@
 extends RefCounted
 ## Which lobes a [LobeMaterial3D] draws: a table, or all tables of a set.
 
+const MaterialInputs := preload("material_inputs.gd")
 const Widths := preload("../table/widths.gd")
 const WidthsTexture := preload("../table/widths_texture.gd")
 const DEFAULT_SET := "res://addons/lobelight/tables/ggx_8.res"
@@ -29,37 +30,37 @@ var _stand_in: LobeTable
 
 
 ## Looks anew at what the material says.
-func choose(material: LobeMaterial3D) -> void:
+func choose(inputs: MaterialInputs) -> void:
 	# Sets find a shared table again only while somebody holds it, and the rendering server goes on
 	# drawing with its texture.
 	@warning_ignore("unused_variable")
 	var held := [table, widths_texture, coat]
-	roughness = material.roughness
-	anisotropy = material.anisotropy
-	rotation = material.anisotropy_rotation
+	roughness = inputs.roughness
+	anisotropy = inputs.anisotropy
+	rotation = inputs.anisotropy_rotation
 	table = null
 	widths_texture = null
-	var tables := get_set(material)
-	is_from_set = material.table == null and tables != null
+	var tables := get_set(inputs)
+	is_from_set = inputs.table == null and tables != null
 	if is_from_set:
-		_choose_from(tables, material)
+		_choose_from(tables, inputs)
 	else:
-		_choose_table(material)
+		_choose_table(inputs)
 	coat = null
-	if material.clearcoat > 0.0 and tables != null:
-		var width := Widths.from_coat_roughness(material.clearcoat_roughness)
+	if inputs.clearcoat > 0.0 and tables != null:
+		var width := Widths.from_coat_roughness(inputs.clearcoat_roughness)
 		coat = tables.shared_table_at(Vector2(width, width))
 
 
-func _choose_from(tables: LobeTableSet, material: LobeMaterial3D) -> void:
+func _choose_from(tables: LobeTableSet, inputs: MaterialInputs) -> void:
 	_stand_in = null
 	# Neither the engine nor flow maps turn negative anisotropy.
-	if anisotropy < 0.0 and rotation != 0.0 and material.anisotropy_flowmap == null:
+	if anisotropy < 0.0 and rotation != 0.0 and inputs.anisotropy_flowmap == null:
 		anisotropy = Widths.exchanged(anisotropy)
 		rotation += 0.5 * PI
 	lobe_count = tables.lobe_count
 	is_isotropic = anisotropy == 0.0
-	if varies(material) and WidthsTexture.find_problem(tables, is_isotropic).is_empty():
+	if inputs.varies() and WidthsTexture.find_problem(tables.widths, is_isotropic).is_empty():
 		widths_texture = tables.get_widths_texture(is_isotropic)
 	else:
 		table = tables.shared_table_at(Widths.from_roughness(roughness, anisotropy))
@@ -67,10 +68,10 @@ func _choose_from(tables: LobeTableSet, material: LobeMaterial3D) -> void:
 
 
 # A material's own table, or one that stands in for it.
-func _choose_table(material: LobeMaterial3D) -> void:
-	if material.table != null and material.table.get_problem().is_empty():
+func _choose_table(inputs: MaterialInputs) -> void:
+	if inputs.table != null and inputs.table.get_problem().is_empty():
 		_stand_in = null
-		table = material.table
+		table = inputs.table
 	else:
 		if _stand_in == null:
 			_stand_in = LobeTable.make_single_lobe()
@@ -82,20 +83,12 @@ func _choose_table(material: LobeMaterial3D) -> void:
 	anisotropy = 0.0 if is_isotropic else godots.y
 
 
-## Whether a material's widths vary from pixel to pixel.
-static func varies(material: LobeMaterial3D) -> bool:
-	if material.orm_texture != null or material.roughness_texture != null:
-		return true
-	var flowmap := material.anisotropy_flowmap
-	return material.anisotropy != 0.0 and flowmap != null and flowmap.has_alpha()
-
-
 ## The set that a material's lobes, or its coat's, come from; null if it has a table of its own and
 ## no coat, or there is none.
-static func get_set(material: LobeMaterial3D) -> LobeTableSet:
-	if material.table_set != null:
-		return material.table_set if material.table_set.get_problem().is_empty() else null
-	if material.table != null and material.clearcoat <= 0.0:
+static func get_set(inputs: MaterialInputs) -> LobeTableSet:
+	if inputs.table_set != null:
+		return inputs.table_set if inputs.table_set.get_problem().is_empty() else null
+	if inputs.table != null and inputs.clearcoat <= 0.0:
 		return null
 	_mutex.lock()
 	var found := _default_set

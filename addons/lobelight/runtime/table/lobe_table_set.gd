@@ -190,10 +190,22 @@ func get_widths_texture(isotropic: bool) -> WidthsTexture:
 	if _textures.has(isotropic):
 		texture = _textures[isotropic].get_ref()
 	if texture == null:
-		texture = WidthsTexture.make(self, isotropic)
+		texture = WidthsTexture.make(widths, lobe_count, _get_images(isotropic), isotropic)
 		_textures[isotropic] = weakref(texture)
 	_mutex.unlock()
 	return texture
+
+
+# As WidthsTexture takes them.
+func _get_images(isotropic: bool) -> Array[Image]:
+	var images: Array[Image] = []
+	for number in widths.size():
+		if isotropic:
+			images.append(get_isotropic_image(number))
+			continue
+		for narrow in widths.size() - number:
+			images.append(get_pair_image(narrow + number, narrow))
+	return images
 
 
 ## The isotropic table of one of [member widths], counted from 0.

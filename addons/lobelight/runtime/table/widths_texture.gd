@@ -20,64 +20,63 @@ var lookup: Vector4
 var levels: Vector3
 
 
-static func make(tables: LobeTableSet, isotropic: bool) -> RefCounted:
+## [param tables] are the isotropic tables' images, by their widths, or the anisotropic ones', in the
+## order of the layers.
+static func make(
+	widths: PackedFloat64Array, lobes: int, tables: Array[Image], isotropic: bool
+) -> RefCounted:
 	var result := new()
-	var widths := tables.widths
 	var last := widths.size() - 1
 	var scale := last * log(2.0) / log(widths[last] / widths[0])
 	result.levels = Vector3(scale, -scale * log(widths[0]) / log(2.0), last)
 	if isotropic:
-		result._make_isotropic(tables)
+		result._make_isotropic(lobes, tables)
 	else:
-		result._make_anisotropic(tables)
+		@warning_ignore("integer_division")
+		result._make_anisotropic(tables[0].get_height() / lobes, tables)
 	return result
 
 
-## Why a set's isotropic or anisotropic tables cannot be looked up pixel by pixel, in a sentence;
-## empty if they can.
-static func find_problem(tables: LobeTableSet, isotropic: bool) -> String:
-	var widths := tables.widths
+## Why the isotropic or anisotropic tables of a set of these widths cannot be looked up pixel by
+## pixel, in a sentence; empty if they can.
+static func find_problem(widths: PackedFloat64Array, isotropic: bool) -> String:
 	var last := widths.size() - 1
 	var step := log(widths[last] / widths[0]) / last
 	for i in widths.size():
 		if absf(log(widths[i] / widths[0]) - step * i) > TOLERANCE:
 			return "The set's widths do not grow by equal factors."
-	if not isotropic and tables.get_pair_count() > MAX_LAYERS:
+	@warning_ignore("integer_division")
+	var pairs := widths.size() * (widths.size() + 1) / 2
+	if not isotropic and pairs > MAX_LAYERS:
 		return (
 			"The set's %d widths make %d anisotropic tables, but a 3D texture has %d layers at most."
-			% [widths.size(), tables.get_pair_count(), MAX_LAYERS]
+			% [widths.size(), pairs, MAX_LAYERS]
 		)
 	return ""
 
 
-func _make_isotropic(tables: LobeTableSet) -> void:
-	var lobes := tables.lobe_count
-	var count := tables.widths.size()
-	var image := Image.create_empty(tables.views.x, lobes * count, false, Image.FORMAT_RGBAH)
+func _make_isotropic(lobes: int, tables: Array[Image]) -> void:
+	var count := tables.size()
+	var views := tables[0].get_width()
+	var image := Image.create_empty(views, lobes * count, false, Image.FORMAT_RGBAH)
 	for level in count:
-		var part := tables.get_isotropic_image(level)
 		for lobe in lobes:
-			var row := Rect2i(0, lobe, tables.views.x, 1)
-			image.blit_rect(part, row, Vector2i(0, lobe * count + level))
+			var row := Rect2i(0, lobe, views, 1)
+			image.blit_rect(tables[level], row, Vector2i(0, lobe * count + level))
 	texture = ImageTexture.create_from_image(image)
 	var rows := 1.0 / (lobes * count)
-	lookup = _get_columns(tables) + Vector4(0.0, 0.0, rows, 0.5 * rows)
+	lookup = _get_columns(views) + Vector4(0.0, 0.0, rows, 0.5 * rows)
 
 
-func _make_anisotropic(tables: LobeTableSet) -> void:
-	var layers: Array[Image] = []
-	var count := tables.widths.size()
-	for apart in count:
-		for narrow in count - apart:
-			layers.append(tables.get_pair_image(narrow + apart, narrow))
+func _make_anisotropic(azimuths: int, tables: Array[Image]) -> void:
 	var volume := ImageTexture3D.new()
-	var size := layers[0].get_size()
-	volume.create(Image.FORMAT_RGBAH, size.x, size.y, layers.size(), false, layers)
+	var size := tables[0].get_size()
+	volume.create(Image.FORMAT_RGBAH, size.x, size.y, tables.size(), false, tables)
 	texture = volume
-	var v_scale := (tables.views.y - 1) / (0.5 * PI * size.y)
-	lookup = _get_columns(tables) + Vector4(0.0, 0.0, v_scale, 0.5 / size.y)
+	var v_scale := (azimuths - 1) / (0.5 * PI * size.y)
+	lookup = _get_columns(size.x) + Vector4(0.0, 0.0, v_scale, 0.5 / size.y)
 
 
-static func _get_columns(tables: LobeTableSet) -> Vector4:
-	var views := float(tables.views.x)
+static func _get_columns(elevations: int) -> Vector4:
+	var views := float(elevations)
 	return Vector4((views - 1.0) / views, 0.5 / views, 0.0, 0.0)
