@@ -254,23 +254,17 @@ func test_all_that_is_drawn_is_taken_from_the_properties() -> void:
 
 
 func _another(property: Dictionary, before: Variant) -> Variant:
-	match property["type"] as Variant.Type:
-		TYPE_BOOL:
-			return not before
-		TYPE_INT:
-			return 1 - int(before > 0)
-		TYPE_FLOAT:
-			return 0.75
-		TYPE_COLOR:
-			return Color(0.5, 0.25, 0.125)
-		TYPE_VECTOR2:
-			return Vector2(2.0, 3.0)
-	match property["class_name"] as StringName:
-		&"LobeTable":
-			return _make_table(2, 1)
-		&"LobeTableSet":
-			return LobeTableSet.new()
-	return PlaceholderTexture2D.new()
+	if before is bool:
+		return not before
+	if before is int:
+		return 1 - int(before > 0)
+	var others := {
+		"": {TYPE_FLOAT: 0.75, TYPE_COLOR: Color.AQUA, TYPE_VECTOR2: Vector2(2.0, 3.0)},
+		"LobeTable": {TYPE_OBJECT: _make_table(2, 1)},
+		"LobeTableSet": {TYPE_OBJECT: LobeTableSet.new()},
+		"Texture2D": {TYPE_OBJECT: PlaceholderTexture2D.new()},
+	}
+	return others[String(property["class_name"])][property["type"]]
 
 
 func _count_properties() -> int:

@@ -20,8 +20,8 @@ var lookup: Vector4
 var levels: Vector3
 
 
-## [param tables] are the isotropic tables' images, by their widths, or the anisotropic ones', in the
-## order of the layers.
+## [param tables] are images: the isotropic tables', by their widths, or the anisotropic ones', in
+## the order of the layers.
 static func make(
 	widths: PackedFloat64Array, lobes: int, tables: Array[Image], isotropic: bool
 ) -> RefCounted:
