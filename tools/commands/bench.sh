@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# measures the fit's speed, memory and error beside NumPy's and SciPy's ([--quick] [--only PART] [--json FILE] [--out DIR]); runtime: an environment's updates
+# measures the fit's speed, memory and error beside NumPy's and SciPy's ([--quick] [--only PART] [--json FILE] [--out DIR]); runtime: an environment's updates; rooms: what probes cost a frame
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
-if [[ ${1:-} == runtime ]]; then
+if [[ ${1:-} == runtime || ${1:-} == rooms ]]; then
+  part=$1
   shift
-  exec bash "$ROOT/tools/bench/runtime.sh" "$@"
+  exec bash "$ROOT/tools/bench/$part.sh" "$@"
 fi
 
 BENCH_PROBES=("header benchmark/benchmark.h libbenchmark-dev")
