@@ -1,7 +1,7 @@
 extends SceneTree
-## `./dev bench rooms`: what the scripts of the run time take in each frame of a scene of many rooms,
-## while nothing moves, while a probe moves, and while one is captured. `--probes N`, `--meshes N`,
-## `--frames N`, `--json FILE`.
+## `./dev bench rooms`: what the scripts of the run time take in each frame of a scene of many
+## rooms, while nothing moves, while a probe moves, and while one is captured.
+## `--probes N`, `--meshes N`, `--frames N`, `--json FILE`.
 ##
 ## What is called in a frame hangs on the engine's signals: the time is that between a call of ours
 ## that comes before all others and one that comes after them.
