@@ -1,6 +1,6 @@
 extends Node3D
-## The demo: a small hall of objects in environments to switch and to turn, lit by one method or by
-## two, side by side.
+## The demo: a small hall of objects in environments to switch and to turn, and an interior with a
+## light for each room, lit by one method or by two, side by side.
 
 ## What the interface shows has changed.
 signal changed
@@ -10,10 +10,12 @@ const PanoramaSky := preload("panorama_sky.gdshader")
 const CompareView := preload("compare/compare_view.gd")
 const DemoObject := preload("demo_object.gd")
 const DemoTables := preload("demo_tables.gd")
+const Interior := preload("interior/interior.gd")
 const Methods := preload("methods.gd")
 const OrbitCamera := preload("orbit_camera.gd")
 const RivalLight := preload("rivals/rival_light.gd")
 const Studio := preload("studio/studio.gd")
+const Sunset := preload("environments/sunset.exr")
 ## All objects have the sliders' widths.
 const EVERY_OBJECT := -1
 # Texels along the side of the captured map's faces: it is made in every frame.
@@ -30,6 +32,8 @@ class Setting:
 	var exposure: float
 	## How far the environment is turned about the vertical axis, in degrees.
 	var turn: float
+	## Whether it shows the interior, rather than the hall's objects.
+	var is_interior := false
 
 	func _init(
 		setting_title: String, map: Texture2D, setting_exposure: float, setting_turn: float
@@ -38,6 +42,11 @@ class Setting:
 		panorama = map
 		exposure = setting_exposure
 		turn = setting_turn
+
+	static func of_interior(map: Texture2D, exposure: float, turn: float) -> Setting:
+		var setting := Setting.new("Interior", map, exposure, turn)
+		setting.is_interior = true
+		return setting
 
 
 ## Which of [member settings] is shown.
@@ -50,7 +59,8 @@ var lobe_count := 8:
 	set(value):
 		lobe_count = value
 		_load_tables()
-## How far the environment, or the studio's lamp, is turned by the user, in radians.
+## How far the environment is turned by the user, or the studio's lamp, or how far the interior's
+## ball has rolled, in radians.
 var turn := 0.0:
 	set(value):
 		turn = value
@@ -80,14 +90,17 @@ var chosen := EVERY_OBJECT:
 var missing_tables: PackedStringArray = []
 var settings: Array[Setting] = [
 	Setting.new("Hall", preload("environments/hall.exr"), 1.1, 305.0),
-	Setting.new("Sunset", preload("environments/sunset.exr"), 0.75, 200.0),
+	Setting.new("Sunset", Sunset, 0.75, 200.0),
 	Setting.new("Studio, live", null, 0.9, 0.0),
+	Setting.of_interior(Sunset, 1.3, 98.4),
 ]
-## Those that the sliders are for.
+## Those that the sliders are for, of what is shown.
 var objects: Array[DemoObject] = []
 
 # Objects, and what they stand on.
 var _surfaces: Array[DemoObject] = []
+var _hall: Array[DemoObject] = []
+var _hall_view: OrbitCamera.View
 var _sky: Sky
 # Counts changes of the environment, so that a map which comes late is not taken.
 var _light_request := 0
@@ -97,6 +110,7 @@ var _light_request := 0
 @onready var _light: LobeEnvironment3D = $Light
 @onready var _backdrop: MeshInstance3D = $Backdrop
 @onready var _studio: Studio = $Studio
+@onready var _interior: Interior = $Interior
 @onready var _world: Environment = ($World as WorldEnvironment).environment
 
 
@@ -106,7 +120,9 @@ func _ready() -> void:
 		if object != null:
 			_surfaces.append(object)
 			if object.title:
-				objects.append(object)
+				_hall.append(object)
+	objects = _hall
+	_hall_view = camera.get_view()
 	if get_viewport() is Window:
 		get_viewport().msaa_3d = Viewport.MSAA_4X
 	compare_view.set_up(camera)
@@ -128,6 +144,21 @@ static func is_compatibility() -> bool:
 ## Whether the environment is the studio.
 func is_live() -> bool:
 	return settings[environment_index].panorama == null
+
+
+## Whether the interior is shown.
+func is_inside() -> bool:
+	return settings[environment_index].is_interior
+
+
+## Whether the lamp in the interior is on.
+func is_lamp_on() -> bool:
+	return _interior.is_lamp_on
+
+
+func switch_lamp(is_on: bool) -> void:
+	_interior.is_lamp_on = is_on
+	changed.emit()
 
 
 ## (roughness, anisotropy, the direction's angle in radians) of what is chosen; of several objects,
@@ -163,6 +194,10 @@ func prepare_light() -> String:
 		made = await _light.rebuild()
 	if not made:
 		return _light.get_rebuild_error()
+	if is_inside():
+		var problem := await _interior.prepare_light()
+		if problem:
+			return problem
 	await _light_rivals()
 	return ""
 
@@ -199,6 +234,7 @@ func _show_environment() -> void:
 		return
 	var setting := settings[environment_index]
 	var live := is_live()
+	_show_interior()
 	_studio.visible = live
 	_backdrop.visible = not live
 	_light.panorama = setting.panorama
@@ -224,13 +260,43 @@ func _show_environment() -> void:
 	changed.emit()
 
 
+# The interior or the hall, each as it is seen at the start.
+func _show_interior() -> void:
+	var inside := is_inside()
+	if inside == _interior.visible:
+		return
+	if inside and _interior.objects.is_empty():
+		_interior.build()
+		_surfaces.append_array(_interior.objects)
+	_interior.visible = inside
+	for part: Node3D in [$Plinth, $Objects, $Shadows]:
+		part.visible = not inside
+	objects = _interior.objects if inside else _hall
+	chosen = EVERY_OBJECT
+	if inside:
+		# The methods before this one know of no rooms.
+		left_method = _with_rooms(left_method, Methods.Method.OURS)
+		right_method = _with_rooms(right_method, Methods.NONE)
+	camera.frame(_interior.view if inside else _hall_view)
+	_show_methods()
+
+
+static func _with_rooms(method: int, otherwise: int) -> int:
+	return method if Methods.has_rooms(method) else otherwise
+
+
 func _turn_environment() -> void:
 	if not is_node_ready():
 		return
 	if is_live():
 		_studio.turn_lamp(turn)
 		return
-	_light.rotation.y = turn + deg_to_rad(settings[environment_index].turn)
+	var turned := turn
+	if is_inside():
+		turned = 0.0
+		_interior.roll(turn)
+		camera.target = _interior.get_target()
+	_light.rotation.y = turned + deg_to_rad(settings[environment_index].turn)
 	var shown: ShaderMaterial = _backdrop.material_override
 	shown.set_shader_parameter(&"turn", _light.rotation.y / TAU)
 	_world.sky_rotation = Vector3(0.0, _light.rotation.y, 0.0)
@@ -250,6 +316,7 @@ func _show_methods() -> void:
 # What the engine's own material is lit by: the engine's sky. Without that material there is none.
 func _show_stock_light() -> void:
 	var needed := shows(Methods.Method.STOCK)
+	_interior.show_engine_probes(needed and is_inside())
 	if needed:
 		# One for all: Godot 4.6.3 leaks a sky in Compatibility that is freed before it has been drawn.
 		if _sky == null:

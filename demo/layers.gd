@@ -10,3 +10,5 @@ const LEFT_COVER := 1 << 3
 const RIGHT_COVER := 1 << 4
 ## The studio, which is captured.
 const STUDIO := 1 << 5
+## What stands for objects in the reflections of others, and is not shown.
+const REFLECTED := 1 << 6

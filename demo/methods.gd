@@ -8,6 +8,11 @@ const NONE := -1
 const TITLES: PackedStringArray = ["Lobelight", "Thesis 2015", "Importance sampling", "Godot"]
 
 
+## Whether a method shows the light of rooms; the others have one map for everything.
+static func has_rooms(method: int) -> bool:
+	return method not in [Method.THESIS, Method.SAMPLES]
+
+
 ## A method's name for people; [param lobes] are those of this project's.
 static func title_of(method: int, lobes: int) -> String:
 	match method:

@@ -12,8 +12,27 @@ const _DISTANCE_LIMITS := Vector2(2.0, 12.0)
 # Moves beyond this part of the picture's height are drags.
 const _TAP_REACH := 0.012
 
+
+## From where something is seen.
+class View:
+	extends RefCounted
+	var target: Vector3
+	var yaw: float
+	var pitch: float
+	var distance: float
+
+	func _init(at: Vector3, about: float, above: float, away: float) -> void:
+		target = at
+		yaw = about
+		pitch = above
+		distance = away
+
+
 ## The point that is looked at.
-@export var target := Vector3(0.0, 0.5, 0.0)
+@export var target := Vector3(0.0, 0.5, 0.0):
+	set(value):
+		target = value
+		_place()
 ## Angle about the vertical axis, in radians.
 @export var yaw := 0.0
 ## Angle above the horizon, in radians.
@@ -39,6 +58,19 @@ var _moved := 0.0
 func _ready() -> void:
 	get_viewport().size_changed.connect(_place)
 	_place()
+
+
+## From where it looks.
+func get_view() -> View:
+	return View.new(target, yaw, pitch, distance)
+
+
+## Looks from there.
+func frame(view: View) -> void:
+	yaw = view.yaw
+	pitch = view.pitch
+	distance = view.distance
+	target = view.target
 
 
 func _unhandled_input(event: InputEvent) -> void:

@@ -16,6 +16,10 @@ const METHODS: Dictionary[int, String] = {
 	Methods.Method.SAMPLES: "fis",
 	Methods.Method.STOCK: "stock",
 }
+## The right half's method with the controls, by environment.
+const COMPARED: Array[int] = [
+	Methods.Method.SAMPLES, Methods.Method.STOCK, Methods.Method.THESIS, Methods.Method.STOCK
+]
 # Frames until the engine's own maps are there.
 const _SETTLING := 6
 
@@ -91,6 +95,8 @@ func _plan_all() -> Array[Picture]:
 	for index in _demo.settings.size():
 		for size: Vector2i in [LANDSCAPE, PORTRAIT]:
 			for method: int in METHODS:
+				if _demo.settings[index].is_interior and not Methods.has_rooms(method):
+					continue
 				var picture := Picture.new()
 				picture.environment = index
 				picture.size = size
@@ -99,7 +105,7 @@ func _plan_all() -> Array[Picture]:
 			var compared := Picture.new()
 			compared.environment = index
 			compared.size = size
-			compared.right = [Methods.Method.SAMPLES, Methods.Method.STOCK, Methods.Method.THESIS][index]
+			compared.right = COMPARED[index]
 			compared.divider = 0.37 if size == LANDSCAPE else 0.5
 			compared.has_interface = true
 			plan.append(compared)

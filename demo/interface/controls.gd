@@ -25,8 +25,12 @@ var roughness := HSlider.new()
 var anisotropy := HSlider.new()
 var direction := HSlider.new()
 var reset := Button.new()
+## Shown where there is a lamp to switch.
+var lamp := CheckButton.new()
 
 var _demo: DemoRoot
+# The objects among which one can be chosen.
+var _listed := []
 var _rows := VBoxContainer.new()
 var _values: Dictionary[HSlider, Label] = {}
 
@@ -75,8 +79,11 @@ func show_state() -> void:
 	left.select(left.get_item_index(_demo.left_method))
 	right.select(right.get_item_index(_demo.right_method + 1))
 	lobes.select(lobes.get_item_index(_demo.lobe_count))
-	objects.select(objects.get_item_index(_demo.chosen + 1))
-	turning.text = "Move the lamp" if _demo.is_live() else "Turn"
+	_show_objects()
+	turning.text = _get_turning_text()
+	lamp.get_parent_control().visible = _demo.is_inside()
+	lamp.set_pressed_no_signal(_demo.is_lamp_on())
+	_show_methods()
 	_show_value(turn, fposmod(rad_to_deg(_demo.turn), 360.0), "%.0f°")
 	var widths := _demo.get_widths()
 	_show_value(roughness, widths.x, "%.2f")
@@ -88,6 +95,32 @@ func _process(delta: float) -> void:
 	if is_turning:
 		_demo.turn += _TURN_PER_SECOND * delta
 		_show_value(turn, fposmod(rad_to_deg(_demo.turn), 360.0), "%.0f°")
+
+
+func _get_turning_text() -> String:
+	if _demo.is_inside():
+		return "Roll the ball"
+	return "Move the lamp" if _demo.is_live() else "Turn"
+
+
+# What is shown has objects of its own.
+func _show_objects() -> void:
+	if not is_same(_listed, _demo.objects):
+		_listed = _demo.objects
+		objects.clear()
+		objects.add_item("All objects", 0)
+		for index in _listed.size():
+			objects.add_item(_listed[index].title, index + 1)
+	objects.select(objects.get_item_index(_demo.chosen + 1))
+
+
+# What has not been baked, and what has no rooms in the interior, cannot be chosen.
+func _show_methods() -> void:
+	for method: int in Methods.Method.values():
+		var is_missing := method == Methods.Method.THESIS and DemoTables.thesis_set() == null
+		var is_off := is_missing or _demo.is_inside() and not Methods.has_rooms(method)
+		left.set_item_disabled(left.get_item_index(method), is_off)
+		right.set_item_disabled(right.get_item_index(method + 1), is_off)
 
 
 func _add_environment() -> void:
@@ -103,6 +136,9 @@ func _add_environment() -> void:
 			_show_value(turn, degrees, "%.0f°")
 	)
 	_add_row("", turning)
+	lamp.text = "Lamp"
+	lamp.toggled.connect(func(pressed: bool) -> void: _demo.switch_lamp(pressed))
+	_add_row("", lamp)
 
 
 func _add_methods() -> void:
@@ -110,9 +146,6 @@ func _add_methods() -> void:
 	for method: int in Methods.Method.values():
 		left.add_item(Methods.TITLES[method], method)
 		right.add_item(Methods.TITLES[method], method + 1)
-	for options: OptionButton in [left, right]:
-		var thesis := Methods.Method.THESIS + (1 if options == right else 0)
-		_disable_without(options, thesis, DemoTables.thesis_set())
 	left.item_selected.connect(
 		func(index: int) -> void: _demo.left_method = left.get_item_id(index)
 	)
@@ -121,7 +154,8 @@ func _add_methods() -> void:
 	)
 	for count in DemoTables.LOBE_COUNTS:
 		lobes.add_item("%d lobes" % count, count)
-		_disable_without(lobes, count, DemoTables.set_of(count))
+		if DemoTables.set_of(count) == null:
+			lobes.set_item_disabled(lobes.get_item_index(count), true)
 	lobes.item_selected.connect(
 		func(index: int) -> void: _demo.lobe_count = lobes.get_item_id(index)
 	)
@@ -131,9 +165,6 @@ func _add_methods() -> void:
 
 
 func _add_widths() -> void:
-	objects.add_item("All objects", 0)
-	for index in _demo.objects.size():
-		objects.add_item(_demo.objects[index].title, index + 1)
 	objects.item_selected.connect(
 		func(index: int) -> void: _demo.chosen = objects.get_item_id(index) - 1
 	)
@@ -146,12 +177,6 @@ func _add_widths() -> void:
 	reset.text = "As at the start"
 	reset.pressed.connect(func() -> void: _demo.reset_widths())
 	_add_row("", reset)
-
-
-# What has not been baked cannot be chosen.
-func _disable_without(options: OptionButton, id: int, tables: LobeTableSet) -> void:
-	if tables == null:
-		options.set_item_disabled(options.get_item_index(id), true)
 
 
 func _set_widths(moved: HSlider) -> void:

@@ -61,9 +61,9 @@ func _ready() -> void:
 
 func _start() -> void:
 	controls.set_up(_demo)
-	_demo.changed.connect(_show_state)
+	# What is shown may need more controls than before.
+	_demo.changed.connect(arrange)
 	arrange()
-	_show_state()
 
 
 func _process(delta: float) -> void:

@@ -4,7 +4,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/demo_tables.sh
 source "$ROOT/tools/lib/demo_tables.sh"
 
-ENVIRONMENTS=(hall sunset)
+ENVIRONMENTS=(hall sunset interior)
 # What is measured: this recipe's BRDF with 8 lobes, on a sphere this many pixels wide.
 MEASURED_RECIPE=brushed_ward
 MEASURED_SIZE=128
@@ -17,12 +17,12 @@ usage: ./dev demo [--env N] [--renderer R] [--out DIR] [--json FILE]
        ./dev demo --cost [--out DIR]
        ./dev demo --engine-light FILE
 
---env N        only environment N: 1 hall, 2 sunset
+--env N        only environment N: 1 hall, 2 sunset, 3 the interior, which is not measured
 --renderer R   mobile (default), gl_compatibility or forward_plus
 --out DIR      where the pictures go (default: build/demo)
 --json FILE    writes what the closing table shows as JSON
 --window       opens the demo on your display
---pictures DIR every environment by every method, landscape and portrait, and both with the controls: 30 pictures
+--pictures DIR every environment by every method, landscape and portrait, and both with the controls: 36 pictures
 --cost         what a frame asks of the shader units of two phones, from the compilers' statistics and the pixels that the
                demo's surfaces cover; README.md and results.json go to DIR (default: docs/report/demo-cost)
 --engine-light FILE   draws one picture instead, in Forward+: what the engine's lights, fog, decals, reflection
@@ -141,6 +141,8 @@ arguments=(--out "$out" --json "$work/pictures.json")
 [[ -z $chosen ]] || arguments+=(--env "$chosen")
 draw_pictures "${arguments[@]}"
 for environment in "${environments[@]}"; do
+  # Rooms are measured by ./dev compare --room.
+  [[ $environment != interior ]] || continue
   measure "$environment"
 done
 "$PYTHON" "$ROOT/tools/demo/summary.py" table --pictures "$work/pictures.json" --measured "$work" \

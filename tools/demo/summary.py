@@ -29,11 +29,12 @@ def print_recipe(arguments: argparse.Namespace) -> None:
 
 
 def merge(pictures: list[dict], measured: Path) -> list[dict]:
-    """Each picture with the figures of its environment's eight lobes."""
+    """Each picture with the figures of its environment's eight lobes, if it was measured."""
     rows = []
     for picture in pictures:
-        metrics = read_json(measured / f"{picture['environment'].lower()}.json")
-        eight = next(entry for entry in metrics if entry["method"] == "gmm8")
+        file = measured / f"{picture['environment'].lower()}.json"
+        metrics = read_json(file) if file.exists() else []
+        eight = next((entry for entry in metrics if entry["method"] == "gmm8"), {})
         rows.append({**picture, **{key: eight.get(key) for key in MEASURES}})
     return rows
 

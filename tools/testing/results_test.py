@@ -97,6 +97,7 @@ class JudgeTest(unittest.TestCase):
             "\x1b[31mERROR: in colour\x1b[0m",
             "WARNING: ObjectDB instances leaked at exit (run with --verbose for details).",
             "ERROR: 2 RID allocations of type 'Texture' were leaked at exit.",
+            'WARNING: 8 RIDs of type "Texture" were leaked.',
             "Leaked instance: Node:1234",
             "Orphan StringName: x",
             "handle_crash: Program crashed with signal 11",
