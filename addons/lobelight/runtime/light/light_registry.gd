@@ -29,6 +29,8 @@ static var _neutral: LobeLight
 static var _shown: LobeLight
 static var _placed: RefCounted
 static var _placed_script: GDScript
+# Whether it has been told that an export lacks the script.
+static var _is_loss_told := false
 static var _defines: PackedStringArray = []
 # Whether what is kept here is dropped when the game ends.
 static var _is_watched := false
@@ -96,7 +98,7 @@ static func expect(world: World3D, owner: int) -> void:
 ## Makes a light the current one of a world, or replaces the one that the same owner offered before;
 ## it fades in over some [param seconds].
 static func offer(world: World3D, owner: int, light: LobeLight, seconds := 0.0) -> void:
-	if seconds > 0.0 or has_other_worlds(world):
+	if seconds > 0.0 or _is_other_world_lit(world):
 		_load_places()
 	_mutex.lock()
 	_watch()
@@ -166,8 +168,9 @@ static func find_loss() -> String:
 # Not under the lock: scripts load others, and who loads may wait for other threads, and these for
 # the lock.
 static func _load_places() -> void:
-	if _placed_script == null:
+	if _placed_script == null and not _is_loss_told:
 		_placed_script = OnDemand.fetch(_PLACED, OnDemand.PLACES) as GDScript
+		_is_loss_told = _placed_script == null
 
 
 ## Whether an environment other than [param owner] lights a world, or has until now.
@@ -178,12 +181,15 @@ static func is_lit_by_other(world: World3D, owner: int) -> bool:
 	return found
 
 
-## Whether there is light in another world.
-static func has_other_worlds(world: World3D) -> bool:
+# Whether there is light in another world that has not gone.
+static func _is_other_world_lit(world: World3D) -> bool:
 	_mutex.lock()
-	var others := _worlds.keys().any(func(key: RID) -> bool: return key != world.scenario)
+	var found := false
+	for scenario in _worlds:
+		var other := _worlds[scenario]
+		found = found or scenario != world.scenario and other.is_lit() and not other.has_gone()
 	_mutex.unlock()
-	return others
+	return found
 
 
 static func _get_world(world: World3D) -> LightWorld:
@@ -227,7 +233,7 @@ static func _find_lit() -> Array[LightWorld]:
 		if world.has_gone():
 			_worlds.erase(scenario)
 			continue
-		if world.get_light() != null or not world.probes.is_empty():
+		if world.is_lit():
 			lit.append(world)
 	return lit
 
@@ -237,10 +243,9 @@ static func _refresh() -> void:
 	var lit := _find_lit()
 	var places := lit.size()
 	for world in lit:
-		places += world.probes.size() + int(world.faded != null)
+		places += world.probes.size() + world.faded.size()
 	var before := _placed
-	var has_places := places > 1 or (places == 1 and lit[0].get_light() == null)
-	if has_places and _placed_script != null:
+	if places > 1 and _placed_script != null:
 		if _placed == null:
 			_placed = _placed_script.new()
 		_placed.show(_worlds, _get_neutral())

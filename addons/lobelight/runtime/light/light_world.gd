@@ -6,6 +6,8 @@ extends RefCounted
 # Frames for which a light that has been taken back stays, so that the environment of the next
 # scene can come; while that one makes its light, the old one stays for longer.
 const _GRACE := 3
+# Lights that are still seen through those that fade in over them; older ones are dropped.
+const _MOST_FADED := 2
 
 ## By the instance id of who offers it, in the order of the offers.
 var environments: Dictionary[int, LobeLight] = {}
@@ -13,11 +15,13 @@ var environments: Dictionary[int, LobeLight] = {}
 var probes: Dictionary[int, LobeLight] = {}
 ## The environments that are making their first light.
 var pending: Dictionary[int, bool] = {}
-## What the current light fades in over, and its share from 0 to 1; null if it does not.
-var faded: LobeLight
-var share := 1.0
-var fade_time := 0.0
+## What the current light fades in over, the newest first.
+var faded: Array[LobeLight] = []
+## By the same index: the share, from 0 to 1, of what has faded in over that light.
+var shares: Array[float] = []
 
+# By the same index, in seconds.
+var _fade_times: Array[float] = []
 # What was shown before the last offer was taken back.
 var _kept: LobeLight
 var _kept_owner := 0
@@ -39,6 +43,11 @@ func get_light() -> LobeLight:
 	return environments.values().back() if not environments.is_empty() else _kept
 
 
+## Whether there is anything to show.
+func is_lit() -> bool:
+	return get_light() != null or not probes.is_empty()
+
+
 ## Whether what is shown is not from this owner.
 func is_lit_by_other(owner: int) -> bool:
 	if environments.is_empty():
@@ -52,7 +61,7 @@ func is_empty() -> bool:
 
 ## Whether [method age] has to be called once a frame.
 func is_aging() -> bool:
-	return _kept != null and environments.is_empty() or faded != null
+	return _kept != null or not faded.is_empty()
 
 
 func offer(owner: int, light: LobeLight, seconds: float) -> void:
@@ -60,10 +69,12 @@ func offer(owner: int, light: LobeLight, seconds: float) -> void:
 	pending.erase(owner)
 	environments[owner] = light
 	_kept = null
-	if seconds > 0.0 and before != null and before != light and get_light() == light:
-		faded = before
-		share = 0.0
-		fade_time = seconds
+	if seconds <= 0.0 or before == null or before == light or get_light() != light:
+		return
+	faded.push_front(before)
+	shares.push_front(0.0)
+	_fade_times.push_front(seconds)
+	_forget_faded(_MOST_FADED)
 
 
 ## Whether there was such an offer.
@@ -71,26 +82,34 @@ func withdraw(owner: int) -> bool:
 	var before := get_light()
 	if not environments.erase(owner):
 		return false
-	faded = null
-	share = 1.0
 	if environments.is_empty():
 		_kept = before
 		_kept_owner = owner
 		_grace = _GRACE
+	elif get_light() != before:
+		_forget_faded(0)
 	return true
 
 
 ## A frame has passed; whether what is shown has changed.
 func age(seconds: float) -> bool:
-	var changed := false
-	if faded != null:
-		share = minf(share + seconds / fade_time, 1.0)
-		if share == 1.0:
-			faded = null
-		changed = true
+	var changed := not faded.is_empty()
+	for i in faded.size():
+		shares[i] = minf(shares[i] + seconds / _fade_times[i], 1.0)
+		if shares[i] == 1.0:
+			_forget_faded(i)
+			break
 	if _kept != null and pending.is_empty():
 		_grace -= 1
 		if _grace <= 0:
 			_kept = null
+			_forget_faded(0)
 			changed = true
 	return changed
+
+
+func _forget_faded(count: int) -> void:
+	if faded.size() > count:
+		faded.resize(count)
+		shares.resize(count)
+		_fade_times.resize(count)

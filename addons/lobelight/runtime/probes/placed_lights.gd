@@ -56,12 +56,13 @@ func show(worlds: Dictionary[RID, LightWorld], neutral: LobeLight) -> void:
 	var lit: Array[RID] = []
 	var locals: Array[LobeLight] = []
 	var others: Array[LobeLight] = []
+	var faded: Array[LobeLight] = []
 	_primary = null
 	_is_stretched = false
 	for scenario: RID in worlds:
 		var world := worlds[scenario]
 		var light := world.get_light()
-		if light == null and world.probes.is_empty() or lit.size() == MAX_WORLDS:
+		if not world.is_lit() or lit.size() == MAX_WORLDS:
 			continue
 		lit.append(scenario)
 		if light == null:
@@ -70,10 +71,12 @@ func show(worlds: Dictionary[RID, LightWorld], neutral: LobeLight) -> void:
 			_primary = light
 		elif light != _primary and light not in others:
 			others.append(light)
-		if world.faded != null and world.faded not in others:
-			others.append(world.faded)
-		for probe: LobeLight in world.probes.values():
-			locals.append(probe)
+		faded.append_array(world.faded)
+		locals.append_array(world.probes.values())
+	# Where there are too many, it is those that go anyway which are left out.
+	for light in faded:
+		if light != _primary and light not in others:
+			others.append(light)
 	for light: LobeLight in locals + others + [_primary]:
 		_is_stretched = _is_stretched or not light.is_even
 	_store.hold(locals, others)
@@ -140,30 +143,33 @@ func _on_frame_pre_draw() -> void:
 func _write() -> void:
 	_list.begin()
 	for scenario in _cameras.get_worlds():
-		if not _worlds.has(scenario):
-			continue
-		var world := _worlds[scenario]
 		_list.begin_world()
-		var probes: Array[LobeLight] = []
+		_write_world(_worlds.get(scenario))
+	_list.end()
+
+
+func _write_world(world: LightWorld) -> void:
+	var probes: Array[LobeLight] = []
+	if world != null:
 		for probe: LobeLight in world.probes.values():
 			if _store.get_layer(probe) != LightStore.NO_PLACE:
 				probes.append(probe)
-		probes.sort_custom(_comes_before)
-		for i in probes.size():
-			var starts := i > 0 and probes[i].priority != probes[i - 1].priority
-			_list.add(
-				probes[i],
-				_store.get_layer(probes[i]),
-				_store.get_level_shift(probes[i]),
-				1.0,
-				starts
-			)
-		var light := world.get_light() if world.get_light() != null else _neutral
-		if world.faded != null:
-			_list.add(light, _layer_of(light), 0.0, world.share, true)
-			light = world.faded
-		_list.add(light, _layer_of(light), 0.0, 1.0, true)
-	_list.end()
+	probes.sort_custom(_comes_before)
+	for i in probes.size():
+		var starts := i > 0 and probes[i].priority != probes[i - 1].priority
+		var shift := _store.get_level_shift(probes[i])
+		_list.add(probes[i], _store.get_layer(probes[i]), shift, 1.0, starts)
+	# Each of what fades takes its share of what is left.
+	var lights: Array[LobeLight] = [_neutral]
+	if world != null and world.get_light() != null:
+		lights[0] = world.get_light()
+		lights.append_array(world.faded)
+	for i in lights.size():
+		var is_last := i == lights.size() - 1
+		var light := lights[i]
+		if _layer_of(light) == LightStore.NO_PLACE:
+			light = _primary
+		_list.add(light, _layer_of(light), 0.0, 1.0 if is_last else world.shares[i], true)
 
 
 func _layer_of(light: LobeLight) -> int:
