@@ -350,19 +350,19 @@ func _wait() -> bool:
 	_waits.append(wait)
 	while _running:
 		if FrameWait.is_rendering_paused():
-			_stop()
 			_mark_stale()
-			_error = "Rendering is paused, so nothing is drawn."
+			_stop("Rendering is paused, so nothing is drawn.")
 			break
 		await wait.went_on
 	_waits.erase(wait)
-	return _light != null and not FrameWait.is_rendering_paused()
+	return _light != null and _error.is_empty()
 
 
 # Ends an update under way without a light of its own.
-func _stop() -> void:
+func _stop(why: String) -> void:
 	if _running:
 		_running = false
+		_error = why
 		rebuild_finished.emit()
 
 
@@ -515,7 +515,8 @@ func _set_light(light: LobeLight) -> void:
 	_light = light
 	_lit_by_itself = _lit_by_itself and light != null
 	_update_placement()
-	if is_other or _in_the_dark:
+	# Without a light, nobody has to wait for it any longer.
+	if is_other or _in_the_dark or light == null:
 		_in_the_dark = false
 		_check_in()
 	if light != null:
@@ -533,7 +534,7 @@ func _leave_world() -> void:
 	if _source.leave_world():
 		_mark_stale()
 		_chain = null
-		_stop()
+		_stop("The node has left the world whose light it was taking.")
 
 
 # Offers the light, or takes it back, as it is the node's turn or not.
