@@ -53,8 +53,9 @@ func _end() -> void:
 		return
 	_tree.node_added.disconnect(_on_node_added)
 	RenderingServer.frame_pre_draw.disconnect(_mark)
-	for camera in _nodes:
-		if is_instance_valid(camera):
+	for i in _nodes.size():
+		if is_instance_valid(_nodes[i]):
+			var camera := _nodes[i]
 			RenderingServer.camera_set_cull_mask(camera.get_camera_rid(), camera.cull_mask)
 	_nodes.clear()
 	_tree = null
@@ -68,9 +69,10 @@ func _on_node_added(node: Node) -> void:
 
 func _mark() -> void:
 	for i in range(_nodes.size() - 1, -1, -1):
-		var camera := _nodes[i]
-		if not is_instance_valid(camera):
+		if not is_instance_valid(_nodes[i]):
 			_nodes.remove_at(i)
-		elif camera.is_inside_tree():
+			continue
+		var camera := _nodes[i]
+		if camera.is_inside_tree():
 			var mask := camera.cull_mask & ~_BITS | get_bits(camera.get_world_3d().scenario)
 			RenderingServer.camera_set_cull_mask(camera.get_camera_rid(), mask)
