@@ -34,7 +34,7 @@ enum UpdateMode {
 	## The scene's lamps are looked at in each frame for it. Nothing tells of what else happens in
 	## the scene: call [method rebuild] then, or take another mode.
 	WHEN_CHANGED,
-	## In every frame.
+	## In every frame, as far as other probes leave them: one is captured in a frame.
 	EVERY_FRAME,
 	## All the time, spread over frames. The light is replaced at the end of each turn.
 	TIME_SLICED,
@@ -204,7 +204,8 @@ func get_rebuild_error() -> String:
 ## Captures the room anew, with the reflections between its materials, each capture in one frame.
 ## Changing a property does so by itself, spread over frames; call it when the scene has changed.
 ## [code]await probe.rebuild()[/code] gives false if it could not be done, with the reason in
-## [method get_rebuild_error]. A baked [member light] is shown again when the node is loaded anew.
+## [method get_rebuild_error]. A baked [member light] is shown again when the
+## node is shown or loaded anew.
 func rebuild() -> bool:
 	_error = _find_obstacle()
 	if _error:
@@ -215,7 +216,7 @@ func rebuild() -> bool:
 	_waits.append(wait)
 	while _is_awaited:
 		if FrameWait.is_rendering_paused():
-			ProbeSchedule.drop(_view)
+			# It comes when rendering goes on.
 			_is_awaited = false
 			_error = "Rendering is paused, so nothing is drawn."
 			rebuild_finished.emit()
@@ -266,6 +267,8 @@ func _find_obstacle() -> String:
 func _update_shown() -> void:
 	var shown := is_inside_tree() and is_visible_in_tree() and Pyramid.has_renderer()
 	if shown and not _is_shown:
+		if light != null and _view.light.faces.is_empty() and light.get_problem().is_empty():
+			_show_baked()
 		_is_shown = true
 		_update_placement()
 		LightRegistry.add_probe(get_world_3d(), get_instance_id(), _view.light)
@@ -278,7 +281,10 @@ func _update_shown() -> void:
 func _leave() -> void:
 	ProbeSchedule.drop(_view)
 	LampWatch.remove(_view.light)
-	_is_awaited = false
+	if _is_awaited:
+		_is_awaited = false
+		_error = "The probe has been hidden, or has left its world."
+		rebuild_finished.emit()
 	if _is_shown:
 		_is_shown = false
 		LightRegistry.withdraw(get_instance_id())
@@ -294,7 +300,7 @@ func _ask_for_capture(urgent: bool) -> void:
 	_view.place.cull_mask = cull_mask
 	_view.place.far = _get_reach()
 	_view.place.sees_background = not interior
-	ProbeSchedule.request(_view, urgent)
+	ProbeSchedule.request(_view, update_mode == UpdateMode.EVERY_FRAME, urgent)
 
 
 func _is_live() -> bool:
@@ -310,7 +316,7 @@ func _on_captured(succeeded: bool) -> void:
 		push_warning("LobeProbe3D: " + _error)
 	rebuild_finished.emit()
 	if succeeded and _is_shown and light == null and _is_live():
-		_ask_for_capture(update_mode == UpdateMode.EVERY_FRAME)
+		_ask_for_capture(false)
 
 
 # Takes the faces of the baked light, which other probes may have as well, each at its own place.
@@ -319,6 +325,9 @@ func _show_baked() -> void:
 	LampWatch.remove(before)
 	_view.light = LobeLight.new()
 	if light != null:
+		# A capture under way would overwrite it.
+		ProbeSchedule.drop(_view)
+		_is_awaited = false
 		var problem := light.get_problem()
 		if problem:
 			push_error(

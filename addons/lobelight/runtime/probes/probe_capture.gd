@@ -66,6 +66,8 @@ func receive(slice: int) -> bool:
 ## After the last slice: hands the light over.
 func finish(view: ProbeView, store: LightStore) -> bool:
 	var light := view.light
+	# Those of a bake are no longer what shows.
+	light.faces = []
 	light.size = _size
 	light.level_variance = Pyramid.LEVEL_VARIANCES[FILTER]
 	light.base_variance = 0.0

@@ -25,11 +25,14 @@ static var _idle := 0
 static var _is_running := false
 
 
-## Has a probe captured; [param urgent] ones come first, each in one frame.
-static func request(view: ProbeView, urgent: bool) -> void:
+## Has a probe captured: each capture in one frame if it is to be [param whole], and before those of
+## others if it is [param urgent].
+static func request(view: ProbeView, whole: bool, urgent: bool) -> void:
 	view.is_urgent = view.is_urgent or urgent
-	if view == _current:
-		# What has been drawn of it is no longer true.
+	view.is_whole = whole or view.is_urgent
+	if view == _current and urgent:
+		# Otherwise what has been drawn of it is used, so that a probe which changes in every frame
+		# is captured nonetheless.
 		_current = null
 		_drawn.clear()
 	if view not in _waiting:
@@ -82,7 +85,7 @@ static func _on_frame_pre_draw() -> void:
 		return
 	_idle = 0
 	var slices := _capture.get_slices()
-	var count := slices if _current.is_urgent else _find_views_per_frame()
+	var count := slices if _current.is_whole else _find_views_per_frame()
 	_drawn.clear()
 	while count > 0 and _slice < slices:
 		_capture.draw(_slice)
@@ -98,10 +101,7 @@ static func _take_next() -> void:
 	var next: ProbeView = null
 	for view in _waiting:
 		view.waited += 1
-		var is_before := next == null or view.get_urgency() > next.get_urgency()
-		if next != null and view.is_urgent != next.is_urgent:
-			is_before = view.is_urgent
-		if is_before:
+		if next == null or _comes_before(view, next):
 			next = view
 	_waiting.erase(next)
 	var size: int = placed.get_store().size
@@ -110,6 +110,12 @@ static func _take_next() -> void:
 	_current = next
 	_slice = 0
 	_capture.begin(next)
+
+
+static func _comes_before(a: ProbeView, b: ProbeView) -> bool:
+	if a.is_urgent != b.is_urgent:
+		return a.is_urgent
+	return a.get_urgency() > b.get_urgency()
 
 
 static func _on_frame_post_draw() -> void:
@@ -127,14 +133,14 @@ static func _on_frame_post_draw() -> void:
 	_current = null
 	var placed := LightRegistry.get_placed()
 	var succeeded: bool = received and placed != null and _capture.finish(view, placed.get_store())
-	view.is_urgent = view.is_urgent and view.echoes > 0
 	if succeeded:
 		LightRegistry.refresh()
-	else:
-		view.echoes = 0
-	if view.echoes > 0:
+	if view in _waiting:
+		# It was asked for again meanwhile.
+		return
+	if succeeded and view.echoes > 0:
 		view.echoes -= 1
-		request(view, view.is_urgent)
+		request(view, view.is_whole, view.is_urgent)
 	else:
 		view.is_urgent = false
 		view.on_end.call(succeeded)

@@ -16,8 +16,10 @@ var world: WorldLight
 var on_end := Callable()
 ## Captures that are to follow, each of which brings one more reflection between materials.
 var echoes := 0
-## Whether it is drawn in one frame, before those that are not.
+## Whether it comes before all that are not.
 var is_urgent := false
+## Whether each capture is drawn in one frame.
+var is_whole := false
 ## Frames since it was asked for.
 var waited := 0
 
