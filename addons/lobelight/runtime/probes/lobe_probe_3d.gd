@@ -287,6 +287,7 @@ func _leave() -> void:
 		rebuild_finished.emit()
 	if _is_shown:
 		_is_shown = false
+		_view.has_light = false
 		LightRegistry.withdraw(get_instance_id())
 
 

@@ -115,6 +115,9 @@ static func _take_next() -> void:
 static func _comes_before(a: ProbeView, b: ProbeView) -> bool:
 	if a.is_urgent != b.is_urgent:
 		return a.is_urgent
+	# A room without a light of its own shows the sky's.
+	if a.has_light != b.has_light:
+		return b.has_light
 	return a.get_urgency() > b.get_urgency()
 
 
@@ -134,6 +137,7 @@ static func _on_frame_post_draw() -> void:
 	var placed := LightRegistry.get_placed()
 	var succeeded: bool = received and placed != null and _capture.finish(view, placed.get_store())
 	if succeeded:
+		view.has_light = true
 		LightRegistry.refresh()
 	if view in _waiting:
 		# It was asked for again meanwhile.

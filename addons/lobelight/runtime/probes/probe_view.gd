@@ -16,6 +16,8 @@ var world: WorldLight
 var on_end := Callable()
 ## Captures that are to follow, each of which brings one more reflection between materials.
 var echoes := 0
+## Whether there has been a capture.
+var has_light := false
 ## Whether it comes before all that are not.
 var is_urgent := false
 ## Whether each capture is drawn in one frame.
