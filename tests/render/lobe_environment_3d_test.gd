@@ -2,7 +2,6 @@ extends GdUnitTestSuite
 ## LobeEnvironment3D rebuilds when it should, and never more than it should.
 
 const Kit := preload("support/render_kit.gd")
-const SkyKit := preload("support/sky_kit.gd")
 
 var _environment: LobeEnvironment3D
 var _rebuilt := 0
@@ -95,37 +94,95 @@ func test_without_a_panorama_there_is_no_light() -> void:
 	assert_object(_environment.get_cubemap()).is_null()
 
 
-func test_materials_belong_to_all_worlds() -> void:
-	var views: Array[LinearViewport] = [LinearViewport.new(8), LinearViewport.new(8)]
-	var lights: Array[LobeEnvironment3D] = []
+func test_rebuild_ends_when_rendering_is_paused() -> void:
+	_environment.panorama = Kit.constant(1.0)
+	assert_bool(await _environment.rebuild()).is_true()
+	var results := []
+	var ask := func() -> void: results.append(await _environment.rebuild())
+	# Before and during the update.
+	ask.call()
+	RenderingServer.render_loop_enabled = false
+	ask.call()
+	await get_tree().process_frame
+	await get_tree().process_frame
+	RenderingServer.render_loop_enabled = true
+	assert_array(results).is_equal([false, false])
+	var why := "Rendering is paused, so nothing is drawn."
+	assert_str(_environment.get_rebuild_error()).is_equal(why)
+	# When rendering goes on, so does the environment.
+	_rebuilt = 0
+	add_child(_environment)
+	await _frames(3)
+	assert_int(_rebuilt).is_equal(1)
+	assert_bool(await _environment.rebuild()).is_true()
+	assert_str(_environment.get_rebuild_error()).is_empty()
+
+
+func test_rebuild_ends_when_the_node_goes() -> void:
+	var results := []
+	var ask := func() -> void: results.append(await _environment.rebuild())
+	_environment.source = LobeEnvironment3D.Source.SKY
+	add_child(_environment)
+	assert_bool(await _environment.rebuild()).is_true()
+	ask.call()
+	remove_child(_environment)
+	await _frames(1)
+	assert_array(results).is_equal([false])
+	assert_str(_environment.get_rebuild_error()).contains("has left the world")
+	_environment.panorama = Kit.constant(1.0)
+	_environment.source = LobeEnvironment3D.Source.PANORAMA
+	ask.call()
+	_environment.free()
+	assert_array(results).is_equal([false, false])
+	await _frames(2)
+
+
+func test_hidden_and_waiting_environments_make_nothing() -> void:
+	_environment.source = LobeEnvironment3D.Source.SKY
+	add_child(_environment)
+	await _frames(3)
+	var before := _in_use()
+	var others: Array[LobeEnvironment3D] = []
+	# One waits, the other is hidden.
 	for i in 2:
-		add_child(views[i])
-		views[i].add_child(SkyKit.make_mirror())
-		lights.append(LobeEnvironment3D.new())
-		lights[i].panorama = Kit.constant(1.0 + i)
-		lights[i].update_mode = LobeEnvironment3D.UpdateMode.ONCE
-	views[0].add_child(lights[0])
-	await lights[0].rebuild()
-	var add_second := func() -> void:
-		views[1].add_child(lights[1])
-		await lights[1].rebuild()
-	await (
-		assert_error(add_second)
-		. is_push_warning(
-			(
-				"LobeEnvironment3D: another world has one as well; LobeMaterial3Ds in all worlds are lit by"
-				+ " the one that came last."
-			)
-		)
-	)
-	# The one that came last lights both; once it has gone, the other does.
-	for expected: float in [2.0, 1.0]:
-		for view in views:
-			var image: Image = await view.capture()
-			assert_float(image.get_pixel(4, 4).g).is_equal_approx(expected, 0.01)
-		lights[1].hide()
-	for view in views:
-		view.free()
+		others.append(LobeEnvironment3D.new())
+		others[i].update_mode = LobeEnvironment3D.UpdateMode.EVERY_FRAME
+		others[i].size = 64
+		others[i].visible = i == 0
+		others[i].rebuilt.connect(func() -> void: _rebuilt += 1)
+		add_child(others[i])
+	_rebuilt = 0
+	await _frames(6)
+	assert_int(_rebuilt).is_equal(0)
+	assert_dict(_in_use()).is_equal(before)
+	for other in others:
+		assert_bool(other.is_active()).is_false()
+		assert_object(other.get_cubemap()).is_null()
+	# Their turns come, and the one that has been lighting waits.
+	_environment.hide()
+	_environment.update_mode = LobeEnvironment3D.UpdateMode.EVERY_FRAME
+	await _frames(3)
+	assert_int(_rebuilt).is_greater(0)
+	assert_object(others[0].get_cubemap()).is_not_null()
+	assert_object(others[1].get_cubemap()).is_null()
+	others[0].free()
+	others[1].show()
+	await _frames(3)
+	assert_object(others[1].get_cubemap()).is_not_null()
+	others[1].free()
+
+
+func test_an_environment_that_is_not_shown_is_not_called() -> void:
+	var before := RenderingServer.frame_pre_draw.get_connections().size()
+	_environment.panorama = Kit.constant(1.0)
+	_environment.update_mode = LobeEnvironment3D.UpdateMode.EVERY_FRAME
+	_environment.hide()
+	add_child(_environment)
+	await _frames(2)
+	assert_int(RenderingServer.frame_pre_draw.get_connections().size()).is_less_equal(before - 1)
+	_environment.show()
+	await _frames(2)
+	assert_int(_rebuilt).is_greater(0)
 
 
 func test_automatic_size() -> void:
@@ -134,6 +191,14 @@ func test_automatic_size() -> void:
 		_environment.panorama = ImageTexture.create_from_image(image)
 		await _environment.rebuild()
 		assert_int(_environment.get_cubemap().get_width()).is_equal(pair.y)
+
+
+func _in_use() -> Dictionary:
+	var server := RenderingServer
+	return {
+		"textures": server.get_rendering_info(RenderingServer.RENDERING_INFO_TEXTURE_MEM_USED),
+		"buffers": server.get_rendering_info(RenderingServer.RENDERING_INFO_BUFFER_MEM_USED),
+	}
 
 
 func _frames(count: int) -> void:

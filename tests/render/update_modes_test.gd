@@ -273,9 +273,14 @@ func test_in_another_world() -> void:
 	var other := LinearViewport.new(SIDE)
 	other.camera.environment.background_color = Color.BLUE
 	add_child(other)
+	other.add_child(SkyKit.make_mirror())
 	other.add_child(_environment)
+	# The light of the world it has left stays there for some frames, then all show the only one.
 	await _frames(2)
+	_assert_colour(await _mirrored(), Color.RED)
+	await _frames(4)
 	_assert_colour(await _mirrored(), Color.BLUE)
+	_assert_colour((await other.capture()).get_pixel(MIDDLE, MIDDLE), Color.BLUE)
 	other.free()
 
 

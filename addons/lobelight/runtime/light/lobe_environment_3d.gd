@@ -381,12 +381,12 @@ func _watch_frames() -> void:
 
 # While nothing can change but by what calls the node, nothing is called in each frame.
 func _rest_if_settled() -> void:
-	if _stale or _running or _chain != null or _echoes > 0:
+	if _running or _chain != null or _active and (_stale or _echoes > 0):
 		return
 	var is_still := update_mode == UpdateMode.ONCE
 	if update_mode == UpdateMode.WHEN_CHANGED and _light_kind == EnvironmentSource.Kind.PANORAMA:
 		is_still = _settings.takes_panorama() and not LiveTextures.is_live(panorama)
-	if is_still:
+	if is_still or not _active:
 		_is_watching = false
 		RenderingServer.frame_pre_draw.disconnect(_on_frame_pre_draw)
 		RenderingServer.frame_post_draw.disconnect(_on_frame_post_draw)
@@ -543,6 +543,8 @@ func _check_in() -> void:
 		return
 	update_configuration_warnings()
 	_active = is_active()
+	if _active:
+		_watch_frames()
 	if _active and _light_kind == EnvironmentSource.Kind.SCENE_VIEWS and not _lit_by_itself:
 		# It was captured in another's light.
 		_mark_stale()
