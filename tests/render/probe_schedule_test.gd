@@ -79,8 +79,9 @@ func test_one_probe_s_change_leaves_the_others_alone() -> void:
 	probes[2].origin_offset.x = 0.1
 	probes[0].intensity = 0.5
 	await _frames(40)
-	assert_array(probes.map(func(probe: LobeProbe3D) -> int: return _rebuilt[probe])).is_equal(
-		[1, 2, 2, 1]
+	(
+		assert_array(probes.map(func(probe: LobeProbe3D) -> int: return _rebuilt[probe]))
+		. is_equal([1, 2, 2, 1])
 	)
 	assert_bool(probes[3].get_light().faces[0].get_data() == before).is_true()
 

@@ -11,6 +11,8 @@ const LightWorld := preload("light_world.gd")
 const NeutralLight := preload("neutral_light.gd")
 const OnDemand := preload("../on_demand.gd")
 
+# Seconds that a fade goes on by in a frame, at most.
+const _LONGEST_STEP := 0.1
 const _PLACED := "res://addons/lobelight/runtime/probes/placed_lights.gd"
 
 # Resources may be created and freed on loader threads.
@@ -324,7 +326,9 @@ static func _start_aging() -> void:
 
 static func _age() -> void:
 	_mutex.lock()
-	var seconds := (Engine.get_main_loop() as SceneTree).root.get_process_delta_time()
+	# Other shaders may have been compiled in this frame; what fades is not to jump for it.
+	var frame_time := (Engine.get_main_loop() as SceneTree).root.get_process_delta_time()
+	var seconds := minf(frame_time, _LONGEST_STEP)
 	var changed := false
 	for scenario: RID in _worlds.keys():
 		changed = _worlds[scenario].age(seconds) or changed

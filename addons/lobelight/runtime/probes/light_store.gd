@@ -39,8 +39,9 @@ static func find_size() -> int:
 	return clampi(nearest_po2(maxi(value, 1)), _MIN_SIZE, _MAX_SIZE)
 
 
-## Keeps these lights and no others: those of probes, and those of further environments.
-@abstract func hold(probes: Array[LobeLight], environments: Array[LobeLight]) -> void
+## Keeps these lights and no others: those of probes, by their instance ids, and those of further
+## environments.
+@abstract func hold(probes: Dictionary[int, LobeLight], environments: Array[LobeLight]) -> void
 
 ## Where a light is, for the list; [constant NO_PLACE] if it has none.
 @abstract func get_layer(light: LobeLight) -> int

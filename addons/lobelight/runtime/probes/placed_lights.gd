@@ -54,7 +54,7 @@ func show(worlds: Dictionary[RID, LightWorld], neutral: LobeLight) -> void:
 	_worlds = worlds
 	_neutral = neutral
 	var lit: Array[RID] = []
-	var locals: Array[LobeLight] = []
+	var locals: Dictionary[int, LobeLight] = {}
 	var others: Array[LobeLight] = []
 	var faded: Array[LobeLight] = []
 	_primary = null
@@ -72,12 +72,12 @@ func show(worlds: Dictionary[RID, LightWorld], neutral: LobeLight) -> void:
 		elif light != _primary and light not in others:
 			others.append(light)
 		faded.append_array(world.faded)
-		locals.append_array(world.probes.values())
+		locals.merge(world.probes)
 	# Where there are too many, it is those that go anyway which are left out.
 	for light in faded:
 		if light != _primary and light not in others:
 			others.append(light)
-	for light: LobeLight in locals + others + [_primary]:
+	for light: LobeLight in locals.values() + others + [_primary]:
 		_is_stretched = _is_stretched or not light.is_even
 	_store.hold(locals, others)
 	_cameras.tell(lit)

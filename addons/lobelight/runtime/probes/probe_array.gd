@@ -21,15 +21,16 @@ var _filled: Dictionary[LobeLight, bool] = {}
 var _environments: Array[LobeLight] = []
 
 
-func hold(probes: Array[LobeLight], environments: Array[LobeLight]) -> void:
+func hold(probes: Dictionary[int, LobeLight], environments: Array[LobeLight]) -> void:
+	var lights := probes.values()
 	_environments = environments.slice(0, MAX_ENVIRONMENTS)
 	for light: LobeLight in _layers.keys():
-		if light not in probes:
+		if light not in lights:
 			_layers.erase(light)
 			_faces.erase(light)
 			_filled.erase(light)
 	_grow(probes.size())
-	for light in probes:
+	for light: LobeLight in lights:
 		if not _layers.has(light):
 			_layers[light] = _find_free_layer()
 		if not light.faces.is_empty() and _faces.get(light) != light.faces:

@@ -13,21 +13,23 @@ const _ADVANTAGE := 0.9
 
 var _cubes: Dictionary[LobeLight, Cubemap] = {}
 var _faces: Dictionary[LobeLight, Array] = {}
-var _probes: Array[LobeLight] = []
+# By their instance ids.
+var _probes: Dictionary[int, LobeLight] = {}
 var _environments: Array[LobeLight] = []
 # By layer.
 var _places: Array[LobeLight] = []
 var _timer: SceneTreeTimer
 
 
-func hold(probes: Array[LobeLight], environments: Array[LobeLight]) -> void:
+func hold(probes: Dictionary[int, LobeLight], environments: Array[LobeLight]) -> void:
+	var lights := probes.values()
 	_probes = probes
 	_environments = environments.slice(0, CUBES - 1)
 	for light: LobeLight in _cubes.keys():
-		if light not in probes:
+		if light not in lights:
 			_cubes.erase(light)
 			_faces.erase(light)
-	for light in probes:
+	for light: LobeLight in lights:
 		if not light.faces.is_empty() and _faces.get(light) != light.faces:
 			_faces[light] = light.faces
 			_cubes[light] = Cubemap.new()
@@ -90,21 +92,22 @@ func _get_cube(light: LobeLight) -> TextureLayered:
 # Gives the places to the environments and to the nearest probes.
 func _choose() -> void:
 	var shown: Array[LobeLight] = []
-	for light in _probes:
+	for light: LobeLight in _probes.values():
 		if _cubes.has(light):
 			shown.append(light)
 	if shown.size() + _environments.size() > CUBES:
-		var origin := _find_camera()
 		var distances: Dictionary[LobeLight, float] = {}
 		for light in shown:
-			var advantage := _ADVANTAGE if light in _places else 1.0
-			distances[light] = advantage * _distance(light, origin)
+			var distance := _distance(light, _find_camera(_probes.find_key(light)))
+			if light in _places:
+				distance *= _ADVANTAGE if distance > 0.0 else 1.0 / _ADVANTAGE
+			distances[light] = distance
 		shown.sort_custom(
 			func(a: LobeLight, b: LobeLight) -> bool: return distances[a] < distances[b]
 		)
 		shown.resize(CUBES - _environments.size())
 	var places := _environments + shown
-	# Those that stay keep their places, so that materials need no other textures.
+	# Those that stay come first, so that few places change.
 	var kept: Array[LobeLight] = []
 	for light in _places:
 		if light in places and kept.size() < places.size():
@@ -122,10 +125,13 @@ static func _distance(light: LobeLight, point: Vector3) -> float:
 	return outside.length() if outside != Vector3.ZERO else -1.0 / (1.0 + light.box_size.length())
 
 
-static func _find_camera() -> Vector3:
-	var tree := Engine.get_main_loop() as SceneTree
-	var camera := tree.root.get_camera_3d() if tree != null else null
-	return camera.global_position if camera != null else Vector3.ZERO
+# Where the camera is that looks at a probe's world.
+static func _find_camera(probe: int) -> Vector3:
+	var node := instance_from_id(probe) as Node3D
+	if node == null or not node.is_inside_tree():
+		return Vector3.ZERO
+	var camera := node.get_viewport().get_camera_3d()
+	return camera.global_position if camera != null else node.global_position
 
 
 func _watch() -> void:
