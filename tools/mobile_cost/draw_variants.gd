@@ -68,6 +68,8 @@ func _make_material(variant: Dictionary) -> Material:
 			# Without a table, the material takes those of the ready set.
 			if variant.has("lobes"):
 				material.set(&"table", _make_table(variant))
+			if variant.get("placed", false):
+				material = _make_placed(material as LobeMaterial3D)
 		"shader":
 			material = _make_shader("\n".join(PackedStringArray(variant["code"] as Array)))
 		"rival":
@@ -77,6 +79,13 @@ func _make_material(variant: Dictionary) -> Material:
 		assert(property in material, property)
 		material.set(property, _make_value(properties[property]))
 	return material
+
+
+# What the material becomes where there are probes.
+func _make_placed(material: LobeMaterial3D) -> ShaderMaterial:
+	var code := material.get_shader_code()
+	var first := code.find("#define")
+	return _make_shader(code.insert(first, "#define LOBELIGHT_PLACED\n"))
 
 
 func _make_shader(code: String) -> ShaderMaterial:
