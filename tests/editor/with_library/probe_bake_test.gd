@@ -23,6 +23,11 @@ var _shade := 0.0
 # An open scene that is saved, with a probe.
 func before_test() -> void:
 	DirAccess.make_dir_absolute(FOLDER)
+	EditorInterface.get_resource_filesystem().scan()
+	await Kit.wait_until(
+		get_tree(),
+		func() -> bool: return not EditorInterface.get_resource_filesystem().is_scanning()
+	)
 	_bakes = Kit.get_plugin(get_tree()).get_light_bakes()
 	_bakes.capture = _capture
 	_bakes.failed.connect(_on_failed)
@@ -116,10 +121,15 @@ func test_a_light_is_saved_beside_the_scene_and_shown() -> void:
 	assert_int(light.size).is_equal(8)
 	assert_bool(light.is_even).is_true()
 	assert_float(light.base_variance).is_equal(0.5)
-	# No temporary file is left.
-	assert_array(Array(DirAccess.get_files_at(FOLDER))).contains_exactly_in_any_order(
-		["house.tscn", "house.Hall.res"]
-	)
+	# No temporary file is left, nor does the editor list one.
+	var files := ["house.tscn", "house.Hall.res"]
+	assert_array(Array(DirAccess.get_files_at(FOLDER))).contains_exactly_in_any_order(files)
+	var listed := EditorInterface.get_resource_filesystem().get_filesystem_path(FOLDER)
+	var names: Array[String] = []
+	for index in listed.get_file_count() if listed != null else 0:
+		names.append(listed.get_file(index))
+	assert_array(names).contains(["house.Hall.res"])
+	assert_array(names).not_contains([".house.Hall.res"])
 
 
 func test_a_scene_is_saved_with_its_light() -> void:

@@ -76,7 +76,7 @@ static func find_probes(root: Node) -> Array[LobeProbe3D]:
 ## Saves a light; why it could not be done, in a sentence, and empty if it was. A file that was
 ## there is replaced whole or not at all, and keeps its UID.
 static func write(light: LobeLight, path: String) -> String:
-	# The editor does not look at files with a dot in front.
+	var files := EditorInterface.get_resource_filesystem()
 	var temporary := path.get_base_dir().path_join("." + path.get_file())
 	var uid := ResourceUID.INVALID_ID
 	if FileAccess.file_exists(path):
@@ -86,12 +86,14 @@ static func write(light: LobeLight, path: String) -> String:
 		error = ResourceSaver.set_uid(temporary, uid)
 	if error == OK:
 		error = DirAccess.rename_absolute(temporary, path)
+	if FileAccess.file_exists(temporary):
+		DirAccess.remove_absolute(temporary)
+	# The editor lists what is saved, and is to forget this one.
+	files.update_file(temporary)
 	if error != OK:
-		if FileAccess.file_exists(temporary):
-			DirAccess.remove_absolute(temporary)
 		return "%s cannot be written: %s." % [path, error_string(error).to_lower()]
 	light.take_over_path(path)
-	EditorInterface.get_resource_filesystem().update_file(path)
+	files.update_file(path)
 	return ""
 
 
