@@ -14,6 +14,7 @@ const FEATURES: PackedStringArray = [
 	"skies/pyramid_views.gdshader",
 	"skies/world_views.gd",
 	"conversion/material_conversion.gd",
+	"probes/placed_lights.gd",
 ]
 
 ## A scene, and which of FEATURES it needs.
@@ -34,6 +35,10 @@ const ASKING := [
 	["material.set(property, 0.1)", [0, 1, 2, 3, 4]],
 	["LobeMaterial3D.get_losses_from(material)", [5]],
 	['material.call("to_standard")', [5]],
+	["add_child(LobeProbe3D.new())", [6]],
+	["viewport.own_world_3d = true", [6]],
+	["$Light.fade_time = 2.0", [6]],
+	["viewport.world_2d = null", []],
 ]
 
 ## Rendering methods of a project and whether the engine may fall back to OpenGL, and which cubes an
@@ -96,13 +101,55 @@ func test_no_export_has_the_warnings() -> void:
 func test_scenes_may_declare_features() -> void:
 	var scene := Node.new()
 	scene.set_meta("lobelight_features", [OnDemand.CONVERSION, OnDemand.SKIES])
+	_expect_features_of_scene(scene, [3, 4, 5])
+
+
+func test_scenes_of_probes_or_of_several_worlds_have_what_tells_places() -> void:
+	_expect_features_of_scene(LobeProbe3D.new(), [6])
+	var viewport := SubViewport.new()
+	_expect_features_of_scene(viewport, [])
+	viewport = SubViewport.new()
+	viewport.own_world_3d = true
+	_expect_features_of_scene(viewport, [6])
+	var environment := LobeEnvironment3D.new()
+	environment.fade_time = 1.0
+	_expect_features_of_scene(environment, [3, 4, 6])
+
+
+func _expect_features_of_scene(scene: Node, needed: Array) -> void:
 	var packed := PackedScene.new()
 	packed.pack(scene)
 	scene.free()
-	var file := "user://diet_declared.tscn"
+	var file := "user://diet_feature.tscn"
 	ResourceSaver.save(packed, file)
-	_expect_features(PackedStringArray([SCENES + "isotropic.tscn", file]), [3, 4, 5])
+	_expect_features(PackedStringArray([SCENES + "isotropic.tscn", file]), needed)
 	DirAccess.remove_absolute(file)
+
+
+func test_folders_of_features_stay_or_go_whole() -> void:
+	var probes := "user://diet_probes.gd"
+	_write(probes, "extends LobeProbe3D\n")
+	for name: String in ["empty", "worn", "isotropic", "everything"]:
+		for script: Array in [[], [probes]]:
+			var files := ProjectFiles.of_scene(SCENES + name + ".tscn")
+			files.append_array(PackedStringArray(script))
+			var code: CodeFiles = Diet.of_files(files).code
+			for folder: String in CodeFiles.Features.FOLDERS:
+				var sizes := _sizes(code, RUN_TIME + folder + "/")
+				assert_int(sizes.size()).append_failure_message(folder).is_greater(0)
+				assert_int(sizes.count(0)).is_in([0, sizes.size()])
+			# Not a byte without probes.
+			var has_probes := _sizes(code, RUN_TIME + "probes/").count(0) == 0
+			assert_bool(has_probes).is_equal(not script.is_empty())
+	DirAccess.remove_absolute(probes)
+
+
+func _sizes(code: CodeFiles, folder: String) -> Array[int]:
+	var sizes: Array[int] = []
+	for path in code.files:
+		if path.begins_with(folder):
+			sizes.append(code.files[path].after)
+	return sizes
 
 
 func test_renderers_that_no_system_has_stay_out(
