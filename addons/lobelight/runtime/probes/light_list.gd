@@ -2,7 +2,8 @@
 extends RefCounted
 ## The lights of all worlds as a texture of numbers, read by placed_light.gdshaderinc.
 ##
-## Row 0 has, for each world, its first row and the one behind its last. A light is a row of seven texels:
+## Row 0 has, for each world, its first row and the one behind its last. A light is a row of seven
+## texels:
 ## [codeblock lang=text]
 ## 0 … 2   rows of the rotation from the world to the light; w: what is added, so that the middle of
 ##         the box is at 0
