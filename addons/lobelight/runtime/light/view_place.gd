@@ -10,5 +10,7 @@ var basis := Basis.IDENTITY
 var near := 0.05
 var far := 1000.0
 var cull_mask := 0xFFFFF
+## Whether rooms whose light has not been captured yet are dark, rather than lit by the environment.
+var is_probe := false
 ## Whether there is a background: the sky, or a colour. Without, it is black.
 var sees_background := true

@@ -2,8 +2,8 @@
 extends RefCounted
 ## The lights of all worlds as a texture of numbers, read by placed_light.gdshaderinc.
 ##
-## Row 0 has, for each world, its first row and the one behind its last. A light is a row of seven
-## texels:
+## Row 0 has, for each world, its first row and the one behind its last; worlds as the captures of
+## probes see them are numbered from [constant CAPTURED] on. A light is a row of seven texels:
 ## [codeblock lang=text]
 ## 0 … 2   rows of the rotation from the world to the light; w: what is added, so that the middle of
 ##         the box is at 0
@@ -16,8 +16,10 @@ extends RefCounted
 
 ## The layer of what all materials have as their environment.
 const ENVIRONMENT := -1
-## Texels of a row, and how many of them lights use.
+## Texels of a row, and how many worlds can be told.
 const WIDTH := 16
+## What is added to a world's number for what captures of probes see.
+const CAPTURED := 8
 # The box of what is seen alike from everywhere, half its size in metres.
 const _EVERYWHERE := 1e9
 # The same as a distance over which nothing blends.
@@ -27,6 +29,8 @@ var texture := ImageTexture.new()
 
 var _numbers := PackedFloat32Array()
 var _rows := 0
+# Of the lights that are being added.
+var _first := 0
 var _worlds := 0
 var _bytes := PackedByteArray()
 
@@ -45,14 +49,32 @@ func begin() -> void:
 
 ## The lights that follow are those of another world. What is in none of them shows the first one's.
 func begin_world() -> void:
-	for column in range(_worlds, WIDTH if _worlds == 0 else _worlds + 1):
-		_numbers[4 * column] = _rows
-		_numbers[4 * column + 1] = _rows
+	_begin(range(WIDTH) if _worlds == 0 else [_worlds, _worlds + CAPTURED])
 	_worlds += 1
 
 
+## The lights that follow are what captures of probes see of the last world, if that is something
+## else.
+func begin_captured() -> void:
+	_begin([_worlds - 1 + CAPTURED])
+
+
+func _begin(columns: Array) -> void:
+	_first = _rows
+	for column: int in columns:
+		_numbers[4 * column] = _rows
+		_numbers[4 * column + 1] = _rows
+
+
 ## [param shift] is added to the light's levels; [param bias] is its weight inside its box.
-func add(light: LobeLight, layer: int, shift: float, bias: float, starts_priority: bool) -> void:
+func add(
+	light: LobeLight,
+	layer: int,
+	shift: float,
+	bias: float,
+	starts_priority: bool,
+	energy := light.energy
+) -> void:
 	var half := _EVERYWHERE * Vector3.ONE
 	var slope := 0.0
 	var to_middle := Vector3.ZERO
@@ -73,7 +95,7 @@ func add(light: LobeLight, layer: int, shift: float, bias: float, starts_priorit
 		Vector4(to_light.x.z, to_light.y.z, to_light.z.z, moved.z),
 		Vector4(half.x, half.y, half.z, slope),
 		Vector4(to_middle.x, to_middle.y, to_middle.z, layer),
-		Vector4(minf(bias, 1.0), light.energy, sharpest.x, level.x + shift),
+		Vector4(minf(bias, 1.0), energy, sharpest.x, level.x + shift),
 		Vector4(sharpest.y, level.y, level.z, 1.0 if starts_priority else 0.0),
 	]
 	_numbers.resize(4 * WIDTH * (_rows + 1))
@@ -82,7 +104,7 @@ func add(light: LobeLight, layer: int, shift: float, bias: float, starts_priorit
 			_numbers[4 * (WIDTH * _rows + i) + j] = texels[i][j]
 	_rows += 1
 	for column in WIDTH:
-		if _numbers[4 * column] == _numbers[4 * (_worlds - 1)]:
+		if int(_numbers[4 * column]) == _first:
 			_numbers[4 * column + 1] = _rows
 
 

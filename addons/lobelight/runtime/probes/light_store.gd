@@ -43,6 +43,9 @@ static func find_size() -> int:
 ## environments.
 @abstract func hold(probes: Dictionary[int, LobeLight], environments: Array[LobeLight]) -> void
 
+## Whether the light of a probe has been captured or baked.
+@abstract func has(probe: LobeLight) -> bool
+
 ## Where a light is, for the list; [constant NO_PLACE] if it has none.
 @abstract func get_layer(light: LobeLight) -> int
 

@@ -123,9 +123,10 @@ func get_store() -> LightStore:
 	return _store
 
 
-## The bits by which the shader tells a world, for the cull masks of cameras that look at it.
-func get_camera_bits(scenario: RID) -> int:
-	return _cameras.get_bits(scenario)
+## The bits by which the shader tells a world, for the cull masks of cameras that look at it; with
+## [param captured], rooms whose light has not been captured yet have none.
+func get_camera_bits(scenario: RID, captured: bool) -> int:
+	return _cameras.get_bits(scenario, LightList.CAPTURED if captured else 0)
 
 
 func _list_textures() -> Array[RID]:
@@ -144,21 +145,30 @@ func _write() -> void:
 	_list.begin()
 	for scenario in _cameras.get_worlds():
 		_list.begin_world()
-		_write_world(_worlds.get(scenario))
+		var world: LightWorld = _worlds.get(scenario)
+		_write_world(world, false)
+		if world != null and not world.probes.values().all(_store.has):
+			_list.begin_captured()
+			_write_world(world, true)
 	_list.end()
 
 
-func _write_world(world: LightWorld) -> void:
+# As cameras see it, or the captures of probes: for these, what has no light yet is dark, as a
+# first capture in the light of the sky would leave some of that in a closed room.
+func _write_world(world: LightWorld, captured: bool) -> void:
 	var probes: Array[LobeLight] = []
 	if world != null:
 		for probe: LobeLight in world.probes.values():
-			if _store.get_layer(probe) != LightStore.NO_PLACE:
+			if _store.get_layer(probe) != LightStore.NO_PLACE or captured and not _store.has(probe):
 				probes.append(probe)
 	probes.sort_custom(_comes_before)
 	for i in probes.size():
 		var starts := i > 0 and probes[i].priority != probes[i - 1].priority
-		var shift := _store.get_level_shift(probes[i])
-		_list.add(probes[i], _store.get_layer(probes[i]), shift, 1.0, starts)
+		if _store.has(probes[i]):
+			var shift := _store.get_level_shift(probes[i])
+			_list.add(probes[i], _store.get_layer(probes[i]), shift, 1.0, starts)
+		else:
+			_list.add(probes[i], LightList.ENVIRONMENT, 0.0, 1.0, starts, 0.0)
 	# Each of what fades takes its share of what is left.
 	var lights: Array[LobeLight] = [_neutral]
 	if world != null and world.get_light() != null:

@@ -39,6 +39,10 @@ func hold(probes: Dictionary[int, LobeLight], environments: Array[LobeLight]) ->
 			_filled[light] = true
 
 
+func has(probe: LobeLight) -> bool:
+	return _filled.has(probe)
+
+
 func get_layer(light: LobeLight) -> int:
 	var environment := _environments.find(light)
 	if environment >= 0:

@@ -38,6 +38,10 @@ func hold(probes: Dictionary[int, LobeLight], environments: Array[LobeLight]) ->
 	_watch()
 
 
+func has(probe: LobeLight) -> bool:
+	return _cubes.has(probe)
+
+
 func get_layer(light: LobeLight) -> int:
 	var place := _places.find(light)
 	return place if place >= 0 else NO_PLACE

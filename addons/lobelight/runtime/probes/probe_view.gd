@@ -26,6 +26,10 @@ var is_whole := false
 var waited := 0
 
 
+func _init() -> void:
+	place.is_probe = true
+
+
 ## Puts the views to where the light's box says.
 func update_place() -> void:
 	place.basis = light.rotation

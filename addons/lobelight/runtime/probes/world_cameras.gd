@@ -34,8 +34,9 @@ func get_worlds() -> Array[RID]:
 	return _worlds
 
 
-func get_bits(scenario: RID) -> int:
-	return maxi(_worlds.find(scenario), 0) << _SHIFT
+## [param more] is added to the world's number.
+func get_bits(scenario: RID, more := 0) -> int:
+	return (maxi(_worlds.find(scenario), 0) + more) << _SHIFT
 
 
 func _begin() -> void:

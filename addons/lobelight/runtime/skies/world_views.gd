@@ -59,7 +59,9 @@ func make_views(samples: int, face_size: int) -> FaceViews:
 func place(views: FaceViews, place: ViewPlace) -> void:
 	var six := views as SixViews
 	var placed := LightRegistry.get_placed()
-	var world: int = placed.get_camera_bits(_node.get_world_3d().scenario) if placed != null else 0
+	var world := 0
+	if placed != null:
+		world = placed.get_camera_bits(_node.get_world_3d().scenario, place.is_probe)
 	if _views == Views.SCENE:
 		six.show(_surroundings.copy if place.sees_background else _make_dark())
 		six.place(place.origin, place.basis, place.near, place.far, place.cull_mask | world)
