@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the guide's clicks in the running editor, on a display of its own, and takes its pictures: pictures.sh [FOLDER]
+# Makes the guide's clicks in the running editor, on a display of its own, and takes its pictures: pictures.sh [FOLDER [guide|room]]
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 folder=$(realpath -m -- "${1:-$ROOT/docs/guide/pictures}")
@@ -18,10 +18,14 @@ sed -i 's|^enabled=.*|enabled=PackedStringArray("res://addons/guide_camera/plugi
 mkdir "$work/pictures"
 step "Taking the guide's pictures" timeout 600 bash "$ROOT/tools/lib/with_display.sh" "$GODOT" --path "$project" --editor \
   --audio-driver Dummy --rendering-method gl_compatibility --rendering-driver opengl3 --single-window \
-  ++ --guide-pictures "$work/pictures"
-clicks=$(<"$work/pictures/clicks")
-grep -q "^$clicks clicks\." "$ROOT/docs/guide/README.md" \
-  || die "pictures.sh: it took $clicks clicks to the brushed sphere, which is not what docs/guide/README.md says"
+  ++ --guide-pictures "$work/pictures" ${2:+"$2"}
+declare -A pages=([guide]=README.md [room]=rooms.md)
+for walk in "${!pages[@]}"; do
+  [[ -f $work/pictures/clicks_$walk ]] || continue
+  clicks=$(<"$work/pictures/clicks_$walk")
+  grep -q "^$clicks clicks\." "$ROOT/docs/guide/${pages[$walk]}" \
+    || die "pictures.sh: it took $clicks clicks, which is not what docs/guide/${pages[$walk]} says"
+done
 mkdir -p "$folder"
 # 256 colours are enough for the editor and a third of the size.
 "$PYTHON" - "$work/pictures" "$folder" <<'PYTHON'

@@ -124,10 +124,23 @@ func scroll_to(list: Control, control: Control) -> void:
 			return
 		var is_below := rect.end.y > frame.end.y
 		var wheel := MOUSE_BUTTON_WHEEL_DOWN if is_below else MOUSE_BUTTON_WHEEL_UP
-		_button(wheel, true)
-		_button(wheel, false)
-		await wait(0.05)
+		await turn_wheel(wheel)
 	fail("%s cannot be scrolled to" % control)
+
+
+## Turns the wheel once where the mouse is.
+func turn_wheel(wheel: MouseButton) -> void:
+	_button(wheel, true)
+	_button(wheel, false)
+	await wait(_STEP)
+
+
+## Presses or lets go of a key.
+func hold(key: Key, pressed: bool) -> void:
+	var event := InputEventKey.new()
+	event.keycode = key
+	event.pressed = pressed
+	Input.parse_input_event(event)
 
 
 func type(text: String) -> void:

@@ -1,10 +1,12 @@
 @tool
 extends EditorPlugin
 ## Goes through the guide in the running editor with the mouse, takes a picture of each step and
-## quits: "++ --guide-pictures FOLDER". Fails where something is not where the guide says.
+## quits: "++ --guide-pictures FOLDER [WALK]". Fails where something is not where the guide says.
+## The walks are guide and room, both if none is named; each leaves its clicks in a file.
 
 const Finder := preload("finder.gd")
 const Mouse := preload("mouse.gd")
+const RoomWalk := preload("room_walk.gd")
 const SphereWalk := preload("sphere_walk.gd")
 const TableWalk := preload("table_walk.gd")
 
@@ -12,6 +14,7 @@ const OPTION := "--guide-pictures"
 const SIZE := Vector2i(1400, 860)
 
 var _folder := ""
+var _walk := ""
 var _mouse: Mouse
 
 
@@ -20,6 +23,7 @@ func _enter_tree() -> void:
 	var option := arguments.find(OPTION)
 	if option >= 0 and option + 1 < arguments.size():
 		_folder = arguments[option + 1]
+		_walk = arguments[option + 2] if option + 2 < arguments.size() else ""
 		_run.call_deferred()
 
 
@@ -30,15 +34,24 @@ func _run() -> void:
 	get_window().mode = Window.MODE_WINDOWED
 	get_window().size = SIZE
 	await _mouse.wait(1.5)
-	var sphere := SphereWalk.new(_mouse, _take)
-	await sphere.go()
-	FileAccess.open(_folder.path_join("clicks"), FileAccess.WRITE).store_line(str(_mouse.clicks))
-	var table := TableWalk.new(_mouse, _take)
-	await table.go()
-	await _show_import()
-	await _show_help()
+	if _walk != "room":
+		await _go(SphereWalk.new(_mouse, _take), "guide")
+		var table := TableWalk.new(_mouse, _take)
+		await table.go()
+		await _show_import()
+		await _show_help()
+	if _walk != "guide":
+		EditorInterface.set_plugin_enabled("lobelight", true)
+		await _go(RoomWalk.new(_mouse, _take), "room")
 	await _wait_for_files()
 	get_tree().quit(mini(_mouse.problems.size(), 1))
+
+
+func _go(walk: RefCounted, name: String) -> void:
+	var before := _mouse.clicks
+	await walk.call("go")
+	var file := FileAccess.open(_folder.path_join("clicks_" + name), FileAccess.WRITE)
+	file.store_line(str(_mouse.clicks - before))
 
 
 func _wait_for_files() -> void:

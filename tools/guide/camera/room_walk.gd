@@ -6,6 +6,9 @@ extends "walk.gd"
 const SCENE := "res://room.tscn"
 const SIZE := Vector3(6, 3, 8)
 const BALL := Vector3(1.2, -0.7, 1.0)
+# The second one, and where its number is in a mask's grid.
+const _BALL_LAYER := 2
+const _BALL_CELL := Vector2(42.0, 19.0)
 const _MOST_TURNS := 40
 # Of the ball in the last picture, in pixels.
 const _RADIUS := 110.0
@@ -27,7 +30,9 @@ func go() -> void:
 	_expect(probe.size.distance_to(SIZE) < 0.2, "box of the room's size, but %s" % probe.size)
 	await _mouse.wait(1.0)
 	await _take.call("room_2_box")
+	await _leave_ball_out(probe)
 	var panel := Finder.of_script(EditorInterface.get_inspector(), "light_panel.gd")
+	await _mouse.scroll_to(EditorInterface.get_inspector(), Finder.button(panel, "Bake Light"))
 	await _mouse.click(Finder.button(panel, "Bake Light"), "Bake Light")
 	for turn in _MOST_TURNS:
 		await _mouse.wait(0.25)
@@ -36,8 +41,7 @@ func go() -> void:
 	_expect(probe.light != null, "baked light")
 	await _mouse.wait(1.0)
 	await _take.call("room_3_baked")
-	EditorInterface.get_selection().clear()
-	await _zoom_in()
+	await _look_at_ball()
 	await _take.call("room_4_ball")
 
 
@@ -96,6 +100,7 @@ func _open_room() -> void:
 	chrome.metallic = 1.0
 	chrome.roughness = 0.2
 	ball.material_override = chrome
+	ball.layers = _BALL_LAYER
 	_add(root, ball)
 	var packed := PackedScene.new()
 	packed.pack(root)
@@ -123,8 +128,12 @@ func _zoom_out(probe: LobeProbe3D) -> void:
 	_mouse.fail("the handles do not come into view")
 
 
-# Until the ball is large.
-func _zoom_in() -> void:
+# Until it is large.
+func _look_at_ball() -> void:
+	EditorInterface.edit_node(EditorInterface.get_edited_scene_root().get_node("Ball"))
+	await _mouse.move(_mouse.find_rect(_find_view()).get_center())
+	await _mouse.type("f")
+	EditorInterface.get_selection().clear()
 	for turn in _MOST_TURNS:
 		if _find_place(BALL).distance_to(_find_place(BALL + 0.7 * Vector3.UP)) > _RADIUS:
 			break
@@ -154,6 +163,16 @@ func _drag_to_wall(probe: LobeProbe3D, axis: int) -> void:
 	_mouse.hold(KEY_ALT, true)
 	await _mouse.drag_from(from, _find_place(wall) - from, "the handle %s" % "XYZ"[axis])
 	_mouse.hold(KEY_ALT, false)
+
+
+# What is on the ball's layer is not captured: the ball would mirror itself.
+func _leave_ball_out(probe: LobeProbe3D) -> void:
+	var property := Finder.property(&"cull_mask")
+	await _mouse.scroll_to(EditorInterface.get_inspector(), property)
+	var grid := Finder.of_class(property, "EditorPropertyLayersGrid") as Control
+	var place := _mouse.find_rect(grid).position + _BALL_CELL
+	await _mouse.click_at(place, grid, "layer 2")
+	_expect(probe.cull_mask & _BALL_LAYER == 0, "mask without the ball")
 
 
 func _find_view() -> Control:

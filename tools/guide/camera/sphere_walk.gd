@@ -45,14 +45,6 @@ func _enable() -> void:
 	await _mouse.click(Finder.button(settings, "Close"), "Close")
 
 
-func _add_node(type: String) -> void:
-	await _mouse.click(Finder.button(_root, "Add/Create a New Node"), "+")
-	await _mouse.wait(0.5)
-	await _mouse.type(type)
-	await _mouse.click(Finder.button(_root, "Create"), "Create " + type)
-	await _mouse.wait(1.0)
-
-
 func _drag_anisotropy() -> void:
 	var property := Finder.property(&"anisotropy")
 	await _mouse.scroll_to(EditorInterface.get_inspector(), property)

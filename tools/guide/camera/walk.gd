@@ -28,6 +28,15 @@ func _open_menu(title: String) -> void:
 	await _mouse.click_at(place, bar, title)
 
 
+# A new node below the selected one.
+func _add_node(type: String) -> void:
+	await _mouse.click(Finder.button(_root, "Add/Create a New Node"), "+")
+	await _mouse.wait(0.5)
+	await _mouse.type(type)
+	await _mouse.click(Finder.button(_root, "Create"), "Create " + type)
+	await _mouse.wait(1.0)
+
+
 # A new resource for a property in the inspector.
 func _choose_resource(property: StringName, type: String) -> void:
 	var editor := Finder.property(property)

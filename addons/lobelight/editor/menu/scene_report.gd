@@ -24,7 +24,8 @@ static func describe(root: Node) -> String:
 	lines.append("Environments: %d" % usage.environments.size())
 	for environment in usage.environments:
 		lines.append("  " + _describe_environment(environment, root))
-	lines.append("Probes: %d" % usage.probes.size())
+	if not usage.probes.is_empty():
+		lines.append("Probes: %d" % usage.probes.size())
 	for probe in usage.probes:
 		lines.append("  " + _describe_probe(probe, root))
 	var warnings := SceneWarnings.of_scene(root)
