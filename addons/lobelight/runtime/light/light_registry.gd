@@ -77,12 +77,20 @@ static func remove_material(material: RID) -> void:
 
 ## Gives a material a light of its own; with [code]null[/code] it shows that of its place again.
 static func set_own_light(material: RID, light: LobeLight) -> void:
-	if light != null and light.has_box():
+	var problem := light.get_problem() if light != null else ""
+	if problem:
+		push_error(
+			(
+				"LobeMaterial3D: %s: %s"
+				% [light.resource_path if light.resource_path else "Light", problem]
+			)
+		)
+	elif light != null and light.has_box():
 		_load_places()
 	_mutex.lock()
 	_own.erase(material)
 	_own_lists.erase(material)
-	if light != null and light.cubemap != null:
+	if light != null and not problem:
 		_own[material] = light
 	if _materials.has(material):
 		_apply(material)

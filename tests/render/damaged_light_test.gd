@@ -1,0 +1,145 @@
+extends GdUnitTestSuite
+## Saved lights that are damaged are told of in one sentence, and show nothing.
+
+const Kit := preload("support/render_kit.gd")
+const SkyKit := preload("support/sky_kit.gd")
+const PATH := "user://damaged_light_test.res"
+const TEXELS := 8
+const OUTSIDE := 0.25
+const INSIDE := 2.0
+# What is wrong, and what is said of it.
+const CASES := [
+	["version", "The light was saved in form 7, this version reads 1: bake it again."],
+	["no faces", "The light has 0 faces, not 6: bake it again."],
+	["five faces", "The light has 5 faces, not 6: bake it again."],
+	["no face", "no half-float image of 8 texels with all levels: bake it again."],
+	["other size", "no half-float image of 8 texels with all levels: bake it again."],
+	["size", "no half-float image of 16 texels with all levels: bake it again."],
+	["odd size", "The light's faces are 12 texels wide, no power of two: bake it again."],
+	["negative size", "The light's faces are -8 texels wide, no power of two: bake it again."],
+	["format", "no half-float image of 8 texels with all levels: bake it again."],
+	["no levels", "no half-float image of 8 texels with all levels: bake it again."],
+	["variance", "The light does not say what its levels were blurred with: bake it again."],
+	["base", "The light does not say what its levels were blurred with: bake it again."],
+]
+
+var _view: LinearViewport
+var _ball: MeshInstance3D
+var _probe: LobeProbe3D
+
+
+func before_test() -> void:
+	_view = LinearViewport.new(8)
+	add_child(_view)
+	_ball = SkyKit.make_mirror()
+	_view.add_child(_ball)
+	var light := LobeEnvironment3D.new()
+	light.panorama = Kit.constant(OUTSIDE)
+	light.size = 8
+	_view.add_child(light)
+	await light.rebuild()
+
+
+func after_test() -> void:
+	_view.free()
+	if FileAccess.file_exists(PATH):
+		DirAccess.remove_absolute(PATH)
+
+
+func test_a_whole_one_shows() -> void:
+	_save(_make_light())
+	_probe = LobeProbe3D.new()
+	_probe.light = _load_light()
+	_view.add_child(_probe)
+	await _assert_shows(INSIDE)
+	_probe.light = null
+	_probe.hide()
+	var material: LobeMaterial3D = (_ball.mesh as SphereMesh).material
+	material.light = _load_light()
+	await _assert_shows(INSIDE)
+
+
+func test_a_damaged_one_is_told(damage: String, told: String, _test_parameters := CASES) -> void:
+	_save(_damage(_make_light(), damage))
+	_probe = LobeProbe3D.new()
+	_view.add_child(_probe)
+	var of_face := "A face of the light is " if told.begins_with("no ") else ""
+	var light := _load_light()
+	var material: LobeMaterial3D = (_ball.mesh as SphereMesh).material
+	var give_material := func() -> void: material.light = light
+	var name := light.resource_path if light.resource_path else "Light"
+	await assert_error(give_material).is_push_error(
+		"LobeMaterial3D: %s: %s%s" % [name, of_face, told]
+	)
+	await _assert_shows(OUTSIDE)
+	var give_probe := func() -> void:
+		_probe.light = light
+		await RenderingServer.frame_post_draw
+		# It is not told of again.
+		_probe.hide()
+		_probe.show()
+		await RenderingServer.frame_post_draw
+	await assert_error(give_probe).is_push_error("LobeProbe3D: %s: %s%s" % [name, of_face, told])
+	material.light = null
+	await _assert_shows(OUTSIDE)
+
+
+func _make_light() -> LobeLight:
+	var light := LobeLight.new()
+	var faces: Array[Image] = []
+	for face in 6:
+		faces.append(_make_face(TEXELS, Image.FORMAT_RGBAH, true))
+	light.faces = faces
+	light.size = TEXELS
+	light.is_even = true
+	return light
+
+
+func _make_face(side: int, format: Image.Format, levels: bool) -> Image:
+	var face := Image.create_empty(side, side, levels, format)
+	face.fill(Color(INSIDE, INSIDE, INSIDE))
+	if levels:
+		face.generate_mipmaps()
+	return face
+
+
+func _damage(light: LobeLight, damage: String) -> LobeLight:
+	match damage:
+		"version":
+			light.version = 7
+		"no faces":
+			light.faces = []
+		"five faces":
+			light.faces = light.faces.slice(1)
+		"no face":
+			light.faces[3] = null
+		"other size":
+			light.faces[3] = _make_face(16, Image.FORMAT_RGBAH, true)
+		"size":
+			light.size = 16
+		"odd size":
+			light.size = 12
+		"negative size":
+			light.size = -8
+		"format":
+			light.faces[2] = _make_face(TEXELS, Image.FORMAT_RGBA8, true)
+		"no levels":
+			light.faces[5] = _make_face(TEXELS, Image.FORMAT_RGBAH, false)
+		"variance":
+			light.level_variance = NAN
+		"base":
+			light.base_variance = INF
+	return light
+
+
+func _save(light: LobeLight) -> void:
+	assert_int(ResourceSaver.save(light, PATH)).is_equal(OK)
+
+
+func _load_light() -> LobeLight:
+	return ResourceLoader.load(PATH, "", ResourceLoader.CACHE_MODE_IGNORE)
+
+
+func _assert_shows(value: float) -> void:
+	var image: Image = await _view.capture()
+	assert_float(image.get_pixel(4, 4).g).is_equal_approx(value, 0.01)
