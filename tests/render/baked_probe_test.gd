@@ -146,6 +146,17 @@ func test_a_light_shared_by_two_worlds_is_shown_by_both() -> void:
 	here.free()
 
 
+# As when a bake is cancelled: the room has other walls by now, but the light is the saved one.
+func test_a_capture_that_is_given_up_leaves_the_baked_light() -> void:
+	var live := await _capture_live()
+	var probe := _make_world(Transform3D.IDENTITY)
+	probe.light = _load_light()
+	assert_bool(await probe.rebuild()).is_true()
+	assert_float(_largest_difference(live, await _view.capture())).is_greater(0.2)
+	probe.light = probe.light
+	assert_float(_largest_difference(live, await _view.capture())).is_less(1.0 / 255.0)
+
+
 # Without a material nobody needs the lights, but a bake does.
 func test_a_room_without_lobe_materials_is_captured_too() -> void:
 	var probe := _make_world(Transform3D.IDENTITY)

@@ -41,7 +41,8 @@ func _run() -> void:
 		await _show_import()
 		await _show_help()
 	if _walk != "guide":
-		EditorInterface.set_plugin_enabled("lobelight", true)
+		if not EditorInterface.is_plugin_enabled(SphereWalk.ADDON):
+			EditorInterface.set_plugin_enabled(SphereWalk.ADDON, true)
 		await _go(RoomWalk.new(_mouse, _take), "room")
 	await _wait_for_files()
 	get_tree().quit(mini(_mouse.problems.size(), 1))

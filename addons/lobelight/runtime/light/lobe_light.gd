@@ -3,7 +3,7 @@ class_name LobeLight
 extends Resource
 ## Light as [LobeMaterial3D]s take it: a cube map whose levels are blurred, where it belongs, and
 ## how strong it is. [LobeEnvironment3D] and [LobeProbe3D] make it.
-## [br][br]
+##
 ## The light of a probe has a box, within which it is seen from where the pixel is. A light that is
 ## saved keeps its faces and what they were filtered with; where it belongs says the node that shows
 ## it, so that a scene with its light can be placed anywhere.
