@@ -4,6 +4,7 @@ extends SceneTree
 
 const OPTIONS: PackedStringArray = [
 	"env",
+	"room",
 	"brdf",
 	"alpha",
 	"methods",
@@ -35,10 +36,7 @@ func _run() -> void:
 	_read_arguments()
 	var remarks: PackedStringArray = []
 	if _arguments.error.is_empty():
-		var panorama := Comparison.load_panorama(_comparison.environment_path)
-		_arguments.fail_if(panorama.get("error", ""))
-		_comparison.stage.panorama = panorama.get("texture")
-		remarks = panorama.get("remarks", remarks)
+		remarks = _load_light()
 	if _arguments.error.is_empty():
 		_arguments.fail_if(await _comparison.run())
 	# An error is one line, and nothing else.
@@ -50,9 +48,26 @@ func _run() -> void:
 	quit(0 if _arguments.error.is_empty() else 1)
 
 
+# What there is to say of the files.
+func _load_light() -> PackedStringArray:
+	if _arguments.has("room"):
+		var room := CompareRoom.read(_comparison.environment_path)
+		_arguments.fail_if(room.get_error())
+		_comparison.stage.room = room
+		return room.remarks
+	var panorama := Comparison.load_panorama(_comparison.environment_path)
+	_arguments.fail_if(panorama.get("error", ""))
+	_comparison.stage.panorama = panorama.get("texture")
+	return panorama.get("remarks", PackedStringArray())
+
+
 func _read_arguments() -> void:
-	_arguments.required("env")
-	_comparison.environment_path = _arguments.path("env")
+	var is_room := _arguments.has("room")
+	if is_room and _arguments.has("env"):
+		_arguments.fail("--room and --env exclude each other: the light is either of them.")
+	if not is_room and not _arguments.has("env"):
+		_arguments.fail("--env is missing (or --room).")
+	_comparison.environment_path = _arguments.path("room" if is_room else "env")
 	_arguments.required("brdf")
 	_comparison.brdf = _arguments.brdf("brdf")
 	_comparison.alpha = _arguments.numbers("alpha", 2, PackedFloat64Array())
@@ -69,7 +84,7 @@ func _read_arguments() -> void:
 	_arguments.required("out")
 	_comparison.out = _arguments.path("out")
 	for method in _comparison.names:
-		_arguments.fail_if(CompareMethods.error(method))
+		_arguments.fail_if(CompareMethods.error(method, is_room))
 		if _comparison.names.count(method) > 1:
 			_arguments.fail("method %s is named twice." % method)
 	_arguments.fail_if(NativeLibrary.error())

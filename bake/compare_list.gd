@@ -2,7 +2,8 @@ extends SceneTree
 ## Many comparisons in one run of the engine, for `./dev accuracy` and `./dev report`.
 ##
 ## `--list FILE` is JSON: {"env", "brdf", "alpha", "methods", "size", "samples", "timing_rounds",
-## "out"} for each [Comparison], paths absolute, and where wanted "timing_size", "tolerant" and
+## "out"} for each [Comparison], paths absolute, with "room" instead of "env" in a [CompareRoom],
+## and where wanted "timing_size", "tolerant" and
 ## "stage", the properties of [ComparisonStage] that differ from the usual: {"filter",
 ## "pyramid_size", "table_views", "toral_coverage", "toral_views", "fis_bias"}. Those of one map and
 ## stage follow one another best, since a map's pyramid is kept while the next comparison needs it;
@@ -42,7 +43,8 @@ func _run() -> void:
 
 func _compare(entry: Dictionary) -> void:
 	var comparison := Comparison.new()
-	comparison.environment_path = entry["env"]
+	var is_room := entry.has("room")
+	comparison.environment_path = entry["room" if is_room else "env"]
 	comparison.brdf = entry["brdf"]
 	comparison.alpha = PackedFloat64Array(entry["alpha"] as Array)
 	comparison.names = PackedStringArray(entry["methods"] as Array)
@@ -54,14 +56,14 @@ func _compare(entry: Dictionary) -> void:
 	comparison.tolerant = entry.get("tolerant", false)
 	if not comparison.tolerant:
 		for method in comparison.names:
-			_arguments.fail_if(CompareMethods.error(method))
-	await _light(comparison.environment_path, entry.get("stage", {}))
+			_arguments.fail_if(CompareMethods.error(method, is_room))
+	await _light(comparison.environment_path, is_room, entry.get("stage", {}))
 	comparison.stage = _stage
 	if _arguments.error.is_empty():
 		_arguments.fail_if(await comparison.run())
 
 
-func _light(path: String, properties: Dictionary) -> void:
+func _light(path: String, is_room: bool, properties: Dictionary) -> void:
 	var key := "%s %s" % [path, properties]
 	if key == _stage_key:
 		return
@@ -69,10 +71,14 @@ func _light(path: String, properties: Dictionary) -> void:
 	# This may be called at the end of the comparison before, which still holds its stage; two lights
 	# cannot share the world.
 	await process_frame
-	var panorama := Comparison.load_panorama(path)
-	_arguments.fail_if(panorama.get("error", ""))
 	_stage = ComparisonStage.new(self)
-	_stage.panorama = panorama.get("texture")
+	if is_room:
+		_stage.room = CompareRoom.read(path)
+		_arguments.fail_if(_stage.room.get_error())
+	else:
+		var panorama := Comparison.load_panorama(path)
+		_arguments.fail_if(panorama.get("error", ""))
+		_stage.panorama = panorama.get("texture")
 	_stage.tables = _tables
 	for property: String in properties:
 		var value: Variant = properties[property]

@@ -16,7 +16,7 @@ const LARGEST_TEXTURE := 16384
 # The name of the sphere that reflects nothing, among the measured ones; no method has it.
 const _EMPTY := ""
 
-## The absolute path of the panorama that [member stage] has.
+## The absolute path of the panorama, or of the room, that [member stage] has.
 var environment_path: String
 var brdf: String
 var alpha: PackedFloat64Array
@@ -46,9 +46,10 @@ func run() -> String:
 	for name in names:
 		if name == CompareMethods.REFERENCE:
 			continue
-		var failure := CompareMethods.error(name)
+		var failure := CompareMethods.error(name, stage.room != null)
 		if failure.is_empty():
 			var method := CompareMethods.make(name, brdf, alpha)
+			method.room = stage.room
 			failure = await method.prepare(stage)
 			if failure.is_empty():
 				methods.append(method)
@@ -94,6 +95,7 @@ func _compare(methods: Array[ComparisonMethod]) -> String:
 	for method in methods:
 		if failure.is_empty():
 			viewports[method.name] = _make_viewport(method)
+			await method.settle(viewports[method.name])
 			failure = await _draw(method.name, viewports[method.name])
 	if failure.is_empty():
 		if timing_rounds > 0:
@@ -144,7 +146,11 @@ func _entries(
 
 
 func _reference_options() -> Dictionary:
-	var options := {"env": environment_path, "brdf": brdf, "alpha": Array(alpha), "size": size}
+	var options := {"brdf": brdf, "alpha": Array(alpha), "size": size}
+	if stage.room == null:
+		options["env"] = environment_path
+	else:
+		options.merge(stage.room.get_reference_options())
 	if samples > 0:
 		options["samples"] = samples
 	return options
@@ -152,10 +158,17 @@ func _reference_options() -> Dictionary:
 
 func _make_viewport(method: ComparisonMethod) -> LinearViewport:
 	var viewport := LinearViewport.new(size)
+	method.choose_world(viewport)
 	stage.tree.root.add_child(viewport)
-	viewport.add_child(method.make_sphere())
+	_add_sphere(viewport, method.make_sphere())
 	method.set_up_viewport(viewport)
 	return viewport
+
+
+func _add_sphere(viewport: LinearViewport, sphere: MeshInstance3D) -> void:
+	viewport.add_child(sphere)
+	if stage.room != null:
+		stage.room.place(viewport, sphere)
 
 
 ## The sphere as all methods draw it, but black: what the renderer takes for any frame and for the
@@ -163,7 +176,7 @@ func _make_viewport(method: ComparisonMethod) -> LinearViewport:
 func _make_empty_viewport() -> LinearViewport:
 	var viewport := LinearViewport.new(size)
 	stage.tree.root.add_child(viewport)
-	viewport.add_child(ComparisonSphere.make("empty.gdshaderinc", "empty_specular", [], {}))
+	_add_sphere(viewport, ComparisonSphere.make("empty.gdshaderinc", "empty_specular", [], {}))
 	return viewport
 
 

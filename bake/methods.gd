@@ -30,9 +30,20 @@ const RIVALS: PackedStringArray = [
 	"stock",
 ]
 
+## Drawn in rooms, besides `gmm<lobes>`, `gmm<lobes>r`, both also with `_flat`, and the reference.
+const ROOM_RIVALS: PackedStringArray = ["fis8", "fis16", "fis40", "fis40g", "stock"]
+const _FLAT := "_flat"
 
-## One sentence where a name cannot be drawn, otherwise empty.
-static func error(method: String) -> String:
+
+## One sentence where a name cannot be drawn, in a room or under a panorama; otherwise empty.
+static func error(method: String, in_room := false) -> String:
+	if method.ends_with(_FLAT) and _gmm_lobes(method.trim_suffix(_FLAT)) > 0:
+		return "" if in_room else "method %s is for rooms: it needs --room." % method
+	if in_room and method in RIVALS and method not in ROOM_RIVALS:
+		return (
+			"method %s is not drawn in rooms; those are gmm<lobes>, gmm<lobes>_flat, %s and reference."
+			% [method, ", ".join(ROOM_RIVALS)]
+		)
 	if method == REFERENCE or method in RIVALS or _gmm_lobes(method) > 0:
 		return ""
 	return (
@@ -45,7 +56,8 @@ static func error(method: String) -> String:
 static func make(method: String, brdf: String, alpha: PackedFloat64Array) -> ComparisonMethod:
 	var made: ComparisonMethod
 	if method.begins_with("gmm"):
-		made = Gmm.make(_gmm_lobes(method), method.ends_with("r"))
+		var lobes := method.trim_suffix(_FLAT)
+		made = Gmm.make(_gmm_lobes(lobes), lobes.ends_with("r"), lobes != method)
 	elif method.begins_with("fis"):
 		made = Fis.make(_number_after("fis", method.trim_suffix("g")), method.ends_with("g"))
 	elif method.begins_with("toral"):

@@ -28,11 +28,12 @@ static func run(
 
 static func _key(native_class: StringName, options: Dictionary) -> String:
 	var parts: Array = [native_class, options]
-	# Maps and measured BRDFs.
+	# Maps, walls and measured BRDFs.
 	for option: String in options:
 		var value: Variant = options[option]
-		if value is String and FileAccess.file_exists(value as String):
-			parts.append(FileAccess.get_md5(value as String))
+		for one: Variant in value if value is Array else [value]:
+			if one is String and FileAccess.file_exists(one as String):
+				parts.append(FileAccess.get_md5(one as String))
 	for library in DirAccess.get_files_at(LIBRARY_FOLDER):
 		parts.append(FileAccess.get_md5(LIBRARY_FOLDER.path_join(library)))
 	return str(parts).md5_text()

@@ -8,6 +8,8 @@ var name: String
 var brdf: String
 ## Widths along the tangent and the bitangent.
 var alpha: PackedFloat64Array
+## The room that the sphere is in; null under a panorama.
+var room: CompareRoom
 
 
 ## Makes what the pictures need: tables, maps. Returns one sentence on failure, otherwise empty.
@@ -15,6 +17,11 @@ var alpha: PackedFloat64Array
 func prepare(_stage: ComparisonStage) -> String:
 	assert(false, "a method overrides prepare()")
 	return ""
+
+
+## Has the viewport, which is not in the tree yet, show another world than its own, if need be.
+func choose_world(_viewport: LinearViewport) -> void:
+	pass
 
 
 ## The sphere, for a [LinearViewport]; to be called after [method prepare].
@@ -25,6 +32,12 @@ func make_sphere() -> MeshInstance3D:
 
 ## What the method needs of the viewport that the sphere is put into, besides.
 func set_up_viewport(_viewport: LinearViewport) -> void:
+	pass
+
+
+## Waits until the viewport, set up, can show the picture: for what is captured in it. To be
+## awaited.
+func settle(_viewport: LinearViewport) -> void:
 	pass
 
 

@@ -6,6 +6,7 @@ extends RefCounted
 const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
 const DualParaboloidMap := preload("dual_paraboloid_map.gd")
 const PrefilteredMap := preload("prefiltered_map.gd")
+const RoomProbe := preload("room_probe.gd")
 const FILTERS: Dictionary[String, LobeEnvironment3D.Filter] = {
 	"box": LobeEnvironment3D.Filter.BOX,
 	"binomial": LobeEnvironment3D.Filter.BINOMIAL,
@@ -18,7 +19,10 @@ const _MEASURED_UPDATES := 3
 const _FRAMES_LATE := 4
 
 var tree: SceneTree
+## What lights the sphere; null in a room.
 var panorama: Texture2D
+## The room that the sphere is in, whose light is captured at its probe; null under a panorama.
+var room: CompareRoom
 ## A key of [constant FILTERS]: how the project's own pyramid is made.
 var filter := "disc"
 ## Texels along the side of the faces of the pyramids; 0 for what [LobeEnvironment3D] chooses.
@@ -38,6 +42,9 @@ var toral_views := Vector2i.ZERO
 var fis_bias := 0.0
 
 var _environment: LobeEnvironment3D
+# Worlds with the room's walls, one for each capture.
+var _room_worlds: Array[SubViewport] = []
+var _room_probe: RoomProbe
 var _lights: Dictionary[String, LobeLight] = {}
 var _prefiltered: Dictionary[String, PrefilteredMap] = {}
 var _update_costs: Dictionary[String, Dictionary] = {}
@@ -51,6 +58,10 @@ func _init(scene_tree: SceneTree) -> void:
 func _notification(what: int) -> void:
 	if what == NOTIFICATION_PREDELETE and is_instance_valid(_environment):
 		_environment.free()
+	if what == NOTIFICATION_PREDELETE:
+		for world in _room_worlds:
+			if is_instance_valid(world):
+				world.free()
 
 
 ## The table of a recipe of [LobeBaker], baked for the method [param title] unless [member tables]
@@ -70,10 +81,22 @@ func bake(recipe: Dictionary, title: String) -> Dictionary:
 func light_materials() -> String:
 	if _environment == null:
 		_environment = _make_environment(filter)
-		tree.root.add_child(_environment)
+		if room == null:
+			tree.root.add_child(_environment)
 	if _environment.get_cubemap() == null and not await _environment.rebuild():
 		return _environment.get_rebuild_error()
 	return ""
+
+
+## The light of [member room] as a [LobeProbe3D] has it: {"probe"} or {"error"}. To be awaited.
+func room_probe() -> Dictionary:
+	if _room_probe == null:
+		var made := RoomProbe.new(room, tree)
+		var failure := await made.capture()
+		if not failure.is_empty():
+			return {"error": failure}
+		_room_probe = made
+	return {"probe": _room_probe}
 
 
 ## What a changing environment costs: an update of the pyramid made with the filter
@@ -170,7 +193,20 @@ func _make_environment(used_filter: String) -> LobeEnvironment3D:
 	environment.filter = FILTERS[used_filter]
 	environment.size = pyramid_size
 	environment.panorama = panorama
+	if room != null:
+		environment.source = LobeEnvironment3D.Source.CAPTURE
+		environment.position = room.probe
+		environment.capture_cull_mask = CompareRoom.WALL_LAYER
+		environment.capture_far = 2.0 * room.size.length()
+		_enter_room(environment)
 	return environment
+
+
+func _enter_room(environment: LobeEnvironment3D) -> void:
+	var world := room.make_world()
+	world.add_child(environment)
+	tree.root.add_child(world)
+	_room_worlds.append(world)
 
 
 static func _light_of(environment: LobeEnvironment3D, kind: Pyramid.Filter) -> LobeLight:
@@ -178,6 +214,8 @@ static func _light_of(environment: LobeEnvironment3D, kind: Pyramid.Filter) -> L
 	made.cubemap = environment.get_cubemap()
 	made.size = made.cubemap.get_width()
 	made.level_variance = Pyramid.LEVEL_VARIANCES[kind]
-	made.base_variance = Pyramid.base_variance(environment.panorama, made.size, kind)
+	# Captures are as sharp as they were drawn.
+	if environment.panorama != null:
+		made.base_variance = Pyramid.base_variance(environment.panorama, made.size, kind)
 	made.is_even = Pyramid.is_round(kind)
 	return made

@@ -57,7 +57,9 @@ func make_part(first: int, count: int) -> MeshInstance3D:
 				&"fis_samples": constants(first, count),
 				&"fis_alpha": _widths(),
 				&"fis_level_scale": TAU * alpha[0] * alpha[1] * _level_scale(),
-			}
+			},
+			null,
+			room
 		)
 	)
 

@@ -15,6 +15,14 @@ const FRAGMENT_PATH := "res://bake/comparators/stock.gdshaderinc"
 const Widths := preload("res://addons/lobelight/runtime/table/widths.gd")
 # The engine's directions to the viewer are off by the sphere's radius over this.
 const _DISTANCE := 1000.0
+# For reflection probes: one, its faces as large as help, and its levels made of more samples.
+const _PROBE_SETTINGS: Dictionary[String, int] = {
+	"rendering/reflections/reflection_atlas/reflection_count": 1,
+	"rendering/reflections/reflection_atlas/reflection_size": 512,
+	"rendering/reflections/sky_reflections/ggx_samples": 128,
+}
+const _PROBE_FRAMES := 40
+
 ## Of the engine's map; its default is 256.
 var radiance_size := Sky.RADIANCE_SIZE_512
 
@@ -31,6 +39,10 @@ func prepare(stage: ComparisonStage) -> String:
 	var parameters := Widths.to_roughness(Vector2(widths.y, widths.x) if _is_turned else widths)
 	_roughness = parameters.x
 	_anisotropy = minf(parameters.y, 1.0)
+	if room != null:
+		# Read when a world is made: the viewport's comes later.
+		for setting: String in _PROBE_SETTINGS:
+			ProjectSettings.set_setting(setting, _PROBE_SETTINGS[setting])
 	return ""
 
 
@@ -39,6 +51,8 @@ func make_sphere() -> MeshInstance3D:
 	material.shader = Shader.new()
 	# What is not written is not in the compiled shader: an isotropic one is without anisotropy.
 	var defines := "#define STOCK_ANISOTROPIC\n" if _anisotropy > 0.0 else ""
+	if room != null:
+		defines += "#define STOCK_IN_ROOM\n"
 	material.shader.code = (
 		'shader_type spatial;\nrender_mode specular_schlick_ggx, %s;\n%s#include "%s"\n'
 		% ["specular_occlusion_disabled", defines, FRAGMENT_PATH]
@@ -51,6 +65,45 @@ func make_sphere() -> MeshInstance3D:
 
 
 func set_up_viewport(viewport: LinearViewport) -> void:
+	var centre := Vector3.ZERO
+	var radius := 1.0
+	if room != null:
+		centre = room.centre
+		radius = room.radius
+		viewport.add_child(room.make_walls())
+		viewport.add_child(_make_probe())
+	else:
+		_set_sky(viewport)
+	viewport.camera.position = centre + Vector3(0.0, 0.0, _DISTANCE)
+	viewport.camera.set_orthogonal(2.0 * radius, _DISTANCE - 2.0, _DISTANCE + 2.0)
+
+
+func settle(viewport: LinearViewport) -> void:
+	if room == null:
+		return
+	# The probe's faces and levels are drawn one after the other, in frames of their own.
+	viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	for frame in _PROBE_FRAMES:
+		await RenderingServer.frame_post_draw
+	viewport.render_target_update_mode = SubViewport.UPDATE_DISABLED
+
+
+# Box projection, nothing but the walls, no fading towards them, and the filtering of probes that
+# are drawn once, which is the engine's best.
+func _make_probe() -> ReflectionProbe:
+	var probe := ReflectionProbe.new()
+	probe.size = room.size
+	probe.origin_offset = room.probe
+	probe.box_projection = true
+	probe.interior = true
+	probe.blend_distance = 0.0
+	probe.ambient_mode = ReflectionProbe.AMBIENT_DISABLED
+	probe.cull_mask = CompareRoom.WALL_LAYER
+	probe.update_mode = ReflectionProbe.UPDATE_ONCE
+	return probe
+
+
+func _set_sky(viewport: LinearViewport) -> void:
 	var sky_material := PanoramaSkyMaterial.new()
 	sky_material.panorama = _panorama
 	var surroundings := viewport.camera.environment
@@ -59,8 +112,6 @@ func set_up_viewport(viewport: LinearViewport) -> void:
 	surroundings.sky.radiance_size = radiance_size
 	surroundings.sky.process_mode = Sky.PROCESS_MODE_QUALITY
 	surroundings.reflected_light_source = Environment.REFLECTION_SOURCE_SKY
-	viewport.camera.position = Vector3(0.0, 0.0, _DISTANCE)
-	viewport.camera.set_orthogonal(2.0, _DISTANCE - 2.0, _DISTANCE + 2.0)
 
 
 ## What the engine does with its map, seen from the shader: one look-up in a map of blurred levels,
@@ -70,6 +121,14 @@ func cost() -> Dictionary:
 
 
 func settings() -> Dictionary:
+	if room != null:
+		return {
+			"shader": "as StandardMaterial3D makes it, on the methods' quad",
+			"roughness": _roughness,
+			"anisotropy": _anisotropy,
+			"reflection_size": _PROBE_SETTINGS.values()[1],
+			"probe": "an interior ReflectionProbe with box projection, drawn once",
+		}
 	return {
 		"shader": "as StandardMaterial3D makes it, on the methods' quad",
 		"roughness": _roughness,

@@ -133,6 +133,16 @@ compare_refuses "a negative number of rounds" "timing-rounds" \
   "${good_compare[@]}" --methods gmm4 --env "$environment" --timing-rounds -1
 compare_refuses "more views than a table has" "views" \
   "${good_compare[@]}" --methods toral8 --env "$environment" --views 1000,1
+compare_refuses "a room and an environment" "--room and --env exclude each other" \
+  "${good_compare[@]}" --methods gmm4 --env "$environment" --room room.json
+compare_refuses "a missing room" "room.json: there is no such file" "${good_compare[@]}" --methods gmm4 --room room.json
+echo '{"size": [6, 3, 8], "walls": {}, "probe": [0, 0, 0], "sphere": {"centre": [0, 0, 0], "radius": 0.4}}' >"$work/bare.json"
+compare_refuses "a room without walls" "bare.json: walls.+x is missing" \
+  "${good_compare[@]}" --methods gmm4 --room "$work/bare.json"
+compare_refuses "a method that is not for rooms" "method asg is not drawn in rooms" \
+  "${good_compare[@]}" --methods asg --room "$work/bare.json"
+compare_refuses "a method for rooms without one" "method gmm8_flat is for rooms" \
+  "${good_compare[@]}" --methods gmm8_flat --env "$environment"
 compare_refuses "an unknown renderer" "vulkan9" \
   "${good_compare[@]}" --methods gmm4 --env "$environment" --renderer vulkan9
 

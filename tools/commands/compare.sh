@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# draws one sphere by several methods beside a reference (--env FILE --brdf B --alpha AX,AY --methods M,M --out DIR)
+# draws one sphere by several methods beside a reference (--env FILE | --room ROOM.json --brdf B --alpha AX,AY --methods M,M --out DIR)
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 usage() {
   cat <<USAGE
 usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out DIR [OPTIONS]
+       ./dev compare --room ROOM.json --brdf B --alpha AX,AY --methods M,M,… --out DIR [OPTIONS]
 
 --methods       gmm<lobes> (gmm1, gmm2, gmm4, gmm8 …); gmm<lobes>r: with refined lobes
                 fis8 fis16 fis40: filtered importance sampling on 2x2 means; fis40g: on the pyramid of gmm
@@ -26,6 +27,21 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
 --views T,P     of toral: fitted views, elevations and azimuths (default 64,1 or 64,32)
 --bias B        of fis: added to the published level (default 0)
 --json FILE     writes metrics.json there too
+
+--room          the sphere stands in a box whose walls emit the radiance of pictures. ROOM.json, in metres, the box's middle
+                being the origin and paths relative to the file:
+                  {"size": [X, Y, Z],
+                   "walls": {"+x": FILE, "-x": FILE, "+y": FILE, "-y": FILE, "+z": FILE, "-z": FILE},
+                   "probe": [x, y, z], "sphere": {"centre": [x, y, z], "radius": r}}
+                A wall's point q has d = q / (size / 2), and (s, t) = +x: (-z, -y), -x: (z, -y), +y: (x, z), -y: (x, -z),
+                +z: (x, -y), -z: (-x, -y) of d; u = (s + 1) / 2, v = (t + 1) / 2, row 0 at v = 0; bilinear, clamped.
+                The sphere is drawn as without a room, its points being centre + radius n; it hides nothing. Light is
+                captured at the probe. Methods:
+                gmm<lobes>: a LobeProbe3D of the box's size; gmm<lobes>_flat: the same light, from infinitely far away
+                fis8 fis16 fis40 fis40g: samples projected to the box
+                stock: an interior ReflectionProbe with box projection, drawn once, at its best settings
+                reference: with itself
+                --filter counts for fis40g only. tools/compare/rooms.py cuts panoramas into rooms.
 
 Writes reference.exr, <method>.exr (linear radiance), <method>_difference.png, sheet.png, metrics.json and plan.json,
 which says how each method was set up and has the times of the rounds.
