@@ -3,14 +3,16 @@ extends RefCounted
 ## The lights of all worlds as a texture of numbers, read by placed_light.gdshaderinc.
 ##
 ## Row 0 has, for each world, its first row and the one behind its last; worlds as the captures of
-## probes see them are numbered from [constant CAPTURED] on. A light is a row of seven texels:
+## probes see them are numbered from [constant CAPTURED] on. A light is a row of eight texels:
 ## [codeblock lang=text]
 ## 0 … 2   rows of the rotation from the world to the light; w: what is added, so that the middle of
 ##         the box is at 0
 ## 3       half the box's size; w: 1 / blend distance
 ## 4       from where the light is seen to the middle of the box, along the light's axes; w: layer
 ## 5       bias of the weight, energy, s and k of lobelight_level
-## 6       of stretched levels: the rest of s and of k; w: 1 where lights of a lower priority begin
+## 6       of stretched levels: the rest of s and of k
+## 7       the middle of the box in the world; w: the square of how far the light reaches from there,
+##         negative where lights of a lower priority begin
 ## [/codeblock]
 ## The last row of a world is its environment's.
 
@@ -22,7 +24,9 @@ const WIDTH := 16
 const CAPTURED := 8
 # The box of what is seen alike from everywhere, half its size in metres.
 const _EVERYWHERE := 1e9
-# The same as a distance over which nothing blends.
+# What rounding may add to the square of a distance.
+const _MARGIN := 1.0001
+# The most that a weight falls by in a metre.
 const _SHARPEST_EDGE := 1e6
 
 var texture := ImageTexture.new()
@@ -78,6 +82,8 @@ func add(
 	var half := _EVERYWHERE * Vector3.ONE
 	var slope := 0.0
 	var to_middle := Vector3.ZERO
+	var middle := Vector3.ZERO
+	var reach := _EVERYWHERE * _EVERYWHERE
 	var moved := Vector3.ZERO
 	var to_light := light.rotation.transposed()
 	if light.has_box():
@@ -87,6 +93,8 @@ func add(
 		# What weighs as much everywhere has no edge.
 		if is_finite(bias):
 			slope = minf(1.0 / maxf(light.blend_distance, 1e-9), _SHARPEST_EDGE)
+			middle = light.box_middle
+			reach = (half + light.blend_distance * Vector3.ONE).length_squared() * _MARGIN
 	var sharpest := light.get_sharpest()
 	var level := light.get_level()
 	var texels: Array[Vector4] = [
@@ -96,7 +104,8 @@ func add(
 		Vector4(half.x, half.y, half.z, slope),
 		Vector4(to_middle.x, to_middle.y, to_middle.z, layer),
 		Vector4(minf(bias, 1.0), energy, sharpest.x, level.x + shift),
-		Vector4(sharpest.y, level.y, level.z, 1.0 if starts_priority else 0.0),
+		Vector4(sharpest.y, level.y, level.z, 0.0),
+		Vector4(middle.x, middle.y, middle.z, -reach if starts_priority else reach),
 	]
 	_numbers.resize(4 * WIDTH * (_rows + 1))
 	for i in texels.size():
