@@ -49,6 +49,21 @@ const RENDERERS := [
 	["gl_compatibility", "mobile", true, [true, true]],
 ]
 
+## Lines of a shader, and those that are left without X.
+const BRANCHES := [
+	["a ; #ifdef X ; b ; #endif ; c", "a ; c"],
+	["#ifdef X ; b ; #else ; c ; #endif ; d", "c ; d"],
+	["#ifndef X ; b ; #else ; c ; #endif", "b"],
+	[
+		"#ifdef Y ; #ifdef X ; b ; #endif ; c ; #else ; d ; #endif",
+		"#ifdef Y ; c ; #else ; d ; #endif"
+	],
+	["#ifdef X ; #if Y > 1 ; b ; #elif Y ; c ; #else ; d ; #endif ; #endif ; e", "e"],
+	["#ifndef X ; #ifdef Y ; b ; #endif ; #endif", "#ifdef Y ; b ; #endif"],
+	["#if defined(X) || Y ; b ; #endif", "#if defined(X) || Y ; b ; #endif"],
+	["#ifdef X ; b ; #elif Y ; c ; #endif", "#ifdef X ; b ; #elif Y ; c ; #endif"],
+]
+
 
 func _code(scene: String) -> CodeFiles:
 	return Diet.of_files(ProjectFiles.of_scene(SCENES + scene + ".tscn")).code
@@ -141,6 +156,10 @@ func test_folders_of_features_stay_or_go_whole() -> void:
 			# Not a byte without probes.
 			var has_probes := _sizes(code, RUN_TIME + "probes/").count(0) == 0
 			assert_bool(has_probes).is_equal(not script.is_empty())
+			var lobes := code.files[RUN_TIME + "shaders/specular.gdshaderinc"].bytes
+			if not lobes.is_empty():
+				var asks := "LOBELIGHT_PLACED" in lobes.get_string_from_utf8()
+				assert_bool(asks).is_equal(has_probes)
 	DirAccess.remove_absolute(probes)
 
 
@@ -176,7 +195,12 @@ func test_renderers_that_no_system_has_stay_out(
 
 
 func test_shaders_lose_their_comments_and_nothing_else() -> void:
-	var code: CodeFiles = _code("everything")
+	var probes := "user://diet_probes.gd"
+	_write(probes, "extends LobeProbe3D\n")
+	var files := ProjectFiles.of_scene(SCENES + "everything.tscn")
+	files.append(probes)
+	var code: CodeFiles = Diet.of_files(files).code
+	DirAccess.remove_absolute(probes)
 	var shaders := 0
 	for path in code.files:
 		if path.get_extension() == "gd" or code.files[path].after == 0:
@@ -200,7 +224,15 @@ func test_a_feature_that_the_project_names_itself_is_not_empty() -> void:
 
 func test_paths_in_includes_are_no_comments() -> void:
 	var code := '#include "res://a.gdshaderinc"\n\n// why\n\tfloat x; // y\n'
-	assert_str(CodeFiles.strip(code)).is_equal('#include "res://a.gdshaderinc"\nfloat x;\n')
+	var stripped := CodeFiles.ShaderText.strip(code)
+	assert_str(stripped).is_equal('#include "res://a.gdshaderinc"\nfloat x;\n')
+
+
+func test_shaders_lose_the_branches_of_a_define(
+	code: String, kept: String, _test_parameters := BRANCHES
+) -> void:
+	var found := CodeFiles.ShaderText.without(code.replace(" ; ", "\n"), "X")
+	assert_str(found.replace("\n", " ; ")).is_equal(kept)
 
 
 # What a compiler sees: no comments, one space between words.

@@ -9,6 +9,7 @@ extends RefCounted
 
 const Features := preload("features.gd")
 const ProjectFiles := preload("project_files.gd")
+const ShaderText := preload("shader_text.gd")
 
 const ADDON := "res://addons/lobelight/"
 const RUN_TIME := Features.RUN_TIME
@@ -43,6 +44,7 @@ var _preloaded: Dictionary[String, bool] = {}
 var _preload := RegEx.create_from_string('preload\\("([^"]+)')
 var _named_path := RegEx.create_from_string("[\\w./:]+\\.(gdshaderinc|gdshader|gd|res)\\b")
 var _named_uid := RegEx.create_from_string("uid://\\w+")
+var _string := RegEx.create_from_string('"[^"\\n]*"')
 var _word := RegEx.create_from_string("\\b[A-Z]\\w+\\b")
 
 
@@ -71,21 +73,6 @@ func get_size_before() -> int:
 
 func get_size_after() -> int:
 	return files.values().reduce(func(sum: int, file: CodeFile) -> int: return sum + file.after, 0)
-
-
-## Shader code without comments, indents and blank lines.
-static func strip(code: String) -> String:
-	if "/*" in code:
-		return code
-	var kept := ""
-	for line in code.split("\n"):
-		var text := line.strip_edges()
-		# The only strings of shaders are paths of others, which hold what elsewhere begins a comment.
-		if not text.begins_with("#include"):
-			text = text.get_slice("//", 0).strip_edges()
-		if text:
-			kept += text + "\n"
-	return kept
 
 
 func _list(folder: String) -> void:
@@ -154,7 +141,9 @@ func _read(file: String, text: String) -> void:
 		var id := ResourceUID.text_to_id(found.get_string())
 		if id != ResourceUID.INVALID_ID and ResourceUID.has_id(id):
 			named = _need(ResourceUID.get_id_path(id), file) or named
-	for found in _word.search_all(text):
+	# The run time names classes in messages, too.
+	var words := _string.sub(text, "", true) if file.begins_with(RUN_TIME) else text
+	for found in _word.search_all(words):
 		if _classes.has(found.get_string()):
 			named = _need(_classes[found.get_string()], file) or named
 	# It may put a path together.
@@ -196,9 +185,16 @@ func _decide(path: String) -> void:
 		else:
 			file.after = 0
 	elif path.get_extension() in SHADERS:
-		file.bytes = strip(FileAccess.get_file_as_string(path)).to_utf8_buffer()
+		file.bytes = _shorten(FileAccess.get_file_as_string(path)).to_utf8_buffer()
 		file.why = "without comments, for %s" % _features.reached.get(feature, _needed_by[path])
 	else:
 		file.why = "for %s" % _features.reached.get(feature, _needed_by[path])
 	if not file.bytes.is_empty():
 		file.after = file.bytes.size()
+
+
+func _shorten(shader: String) -> String:
+	for feature in Features.DEFINES:
+		if not _features.reached.has(feature):
+			shader = ShaderText.without(shader, Features.DEFINES[feature])
+	return ShaderText.strip(shader)

@@ -27,6 +27,8 @@ const FOLDERS: Dictionary[String, String] = {
 	"skies": OnDemand.SKIES,
 	"warnings": WARNINGS,
 }
+## What shaders that others share ask for where they are to draw the feature.
+const DEFINES: Dictionary[String, String] = {OnDemand.PLACES: "LOBELIGHT_PLACED"}
 # What scripts and animations name where they may ask for it.
 const _WORDS: Dictionary[String, String] = {
 	COAT: "clearcoat\\w*",
