@@ -77,7 +77,6 @@ func _enter_tree() -> void:
 	add_tool_submenu_item(ToolsMenu.TITLE, _tools_menu)
 	_probe_gizmo = ProbeGizmo.new(get_undo_redo())
 	add_node_3d_gizmo_plugin(_probe_gizmo)
-	_probe_gizmo.update_open_scenes()
 
 
 func _exit_tree() -> void:

@@ -5,6 +5,7 @@ extends GdUnitTestSuite
 
 const Kit := preload("res://tests/editor/editor_kit.gd")
 const LightBakes := preload("res://addons/lobelight/editor/probes/light_bakes.gd")
+const LightDialog := preload("res://addons/lobelight/editor/probes/light_dialog.gd")
 const LightFile := preload("res://addons/lobelight/editor/probes/light_file.gd")
 const LightPanel := preload("res://addons/lobelight/editor/probes/light_panel.gd")
 const ToolsMenu := preload("res://addons/lobelight/editor/menu/tools_menu.gd")
@@ -269,6 +270,50 @@ func test_copies_of_a_probe_have_files_of_their_own() -> void:
 	assert_str(_probe.light.resource_path).is_equal(LIGHT)
 	await _bake(copy)
 	assert_str(copy.light.resource_path).is_equal("res://probes/house.Hall_2.res")
+
+
+func test_files_have_names_that_every_system_takes() -> void:
+	await _bake(_probe)
+	var other := _add_probe("hall", _root)
+	await _bake(other)
+	assert_str(other.light.resource_path).is_equal("res://probes/house.hall_2.res")
+	other = _add_probe("Why?", _root)
+	assert_str(LightFile.choose_path(other, _root)).is_equal("res://probes/house.Why_.res")
+
+
+func test_a_long_bake_shows_a_dialog_that_cancels_it() -> void:
+	var state := {"ends": false}
+	_bakes.capture = func(_captured: LobeProbe3D) -> Variant:
+		while not state["ends"]:
+			await await_idle_frame()
+		return _make_light(1.0)
+	_bakes.add(_probe)
+	_bakes.add(_add_probe("Yard", _root))
+	var base := EditorInterface.get_base_control()
+	var dialog: LightDialog = Kit.find_all(base, LightDialog)[0]
+	assert_bool(await Kit.wait_until(get_tree(), func() -> bool: return dialog.visible)).is_true()
+	assert_str(dialog._what.text).is_equal("Capturing Hall, 1 of 2")
+	dialog.custom_action.emit(&"cancel_bake")
+	state["ends"] = true
+	var is_over := func() -> bool: return _bakes.get_running() == null and not dialog.visible
+	assert_bool(await Kit.wait_until(get_tree(), is_over)).is_true()
+	assert_object(_probe.light).is_null()
+	assert_bool(FileAccess.file_exists(LIGHT)).is_false()
+
+
+func test_disabling_the_addon_ends_a_bake() -> void:
+	var was_frugal := OS.low_processor_usage_mode
+	_bakes.add(_probe)
+	assert_bool(OS.low_processor_usage_mode).is_false()
+	EditorInterface.set_plugin_enabled(Kit.ADDON, false)
+	for frame in 6:
+		await await_idle_frame()
+	assert_bool(OS.low_processor_usage_mode).is_equal(was_frugal)
+	assert_object(_probe.light).is_null()
+	assert_bool(FileAccess.file_exists(LIGHT)).is_false()
+	assert_array(_probe.get_gizmos()).is_empty()
+	# What the suite goes on with.
+	Kit.get_plugin(get_tree())
 
 
 func test_the_menu_bakes_all_that_the_scene_saves() -> void:

@@ -37,16 +37,6 @@ func _init(undo_redo: EditorUndoRedoManager = null) -> void:
 	EditorInterface.get_selection().selection_changed.connect(_on_selection_changed)
 
 
-## Has the probes of open scenes drawn, which may be older than the gizmo.
-func update_open_scenes() -> void:
-	for root in EditorInterface.get_open_scene_roots():
-		var probes := root.find_children("*", "Node3D", true, false)
-		probes.append(root)
-		for probe in probes:
-			if probe is LobeProbe3D:
-				(probe as LobeProbe3D).update_gizmos()
-
-
 func _has_gizmo(node: Node3D) -> bool:
 	return node is LobeProbe3D
 

@@ -43,18 +43,23 @@ static func is_saved(node: Node, root: Node) -> bool:
 ## The file for a probe's light. It stays the one that the probe has, unless that is another scene's
 ## or another probe's: what was copied has a light of its own from then on.
 static func choose_path(probe: LobeProbe3D, root: Node) -> String:
+	# Some file systems take capitals and small letters for the same.
 	var taken: Dictionary[String, bool] = {}
 	for other in find_probes(root):
 		if other != probe and other.light != null:
-			taken[other.light.resource_path] = true
+			taken[other.light.resource_path.to_lower()] = true
 	var stem := root.scene_file_path.get_basename()
 	var own := "" if probe.light == null else probe.light.resource_path
-	if own.begins_with(stem + ".") and own.get_extension() == _EXTENSION and not taken.has(own):
+	var is_beside := own.begins_with(stem + ".") and own.get_extension() == _EXTENSION
+	if is_beside and not taken.has(own.to_lower()):
 		return own
-	var name := root.name if probe == root else "_".join(_get_names(root.get_path_to(probe)))
+	var names := PackedStringArray([root.name])
+	if probe != root:
+		names = _get_names(root.get_path_to(probe))
+	var name := "_".join(names).validate_filename()
 	var path := "%s.%s.%s" % [stem, name, _EXTENSION]
 	var number := 2
-	while taken.has(path):
+	while taken.has(path.to_lower()):
 		path = "%s.%s_%d.%s" % [stem, name, number, _EXTENSION]
 		number += 1
 	return path
