@@ -3,28 +3,37 @@
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 folder=$(realpath -m -- "${1:-$ROOT/docs/guide/pictures}")
+declare -A pages=([guide]=README.md [room]=rooms.md)
+walks=("${!pages[@]}")
+if [[ -n ${2:-} ]]; then
+  is_one_of "$2" "${walks[@]}" || die "pictures.sh: there is no walk '$2'; the walks are ${walks[*]}"
+  walks=("$2")
+fi
 need_engine
 need_python ""
 need_library
 need_display
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-project=$work/project
-
-bash "$ROOT/tools/testing/editor_project.sh" "$project"
-rm -rf "$project"/{tests,addons/editor_tests,addons/gdUnit4}
-cp -r "$ROOT/tools/guide/camera" "$project/addons/guide_camera"
-sed -i 's|^enabled=.*|enabled=PackedStringArray("res://addons/guide_camera/plugin.cfg")|' "$project/project.godot"
 mkdir "$work/pictures"
-step "Taking the guide's pictures" timeout 600 bash "$ROOT/tools/lib/with_display.sh" "$GODOT" --path "$project" --editor \
-  --audio-driver Dummy --rendering-method gl_compatibility --rendering-driver opengl3 --single-window \
-  ++ --guide-pictures "$work/pictures" ${2:+"$2"}
-declare -A pages=([guide]=README.md [room]=rooms.md)
-for walk in "${!pages[@]}"; do
-  [[ -f $work/pictures/clicks_$walk ]] || continue
-  clicks=$(<"$work/pictures/clicks_$walk")
+
+# go WALK: the clicks of a page, in a new project and an editor of its own.
+go() {
+  local walk=$1 project=$work/$1 clicks
+  bash "$ROOT/tools/testing/editor_project.sh" "$project"
+  rm -rf "$project"/{tests,addons/editor_tests,addons/gdUnit4}
+  cp -r "$ROOT/tools/guide/camera" "$project/addons/guide_camera"
+  sed -i 's|^enabled=.*|enabled=PackedStringArray("res://addons/guide_camera/plugin.cfg")|' "$project/project.godot"
+  step "Taking the pictures of docs/guide/${pages[$walk]}" timeout 600 bash "$ROOT/tools/lib/with_display.sh" "$GODOT" \
+    --path "$project" --editor --audio-driver Dummy --rendering-method gl_compatibility --rendering-driver opengl3 \
+    --single-window ++ --guide-pictures "$work/pictures" "$walk"
+  clicks=$(<"$work/pictures/clicks")
   grep -q "^$clicks clicks\." "$ROOT/docs/guide/${pages[$walk]}" \
     || die "pictures.sh: it took $clicks clicks, which is not what docs/guide/${pages[$walk]} says"
+}
+
+for walk in "${walks[@]}"; do
+  go "$walk"
 done
 mkdir -p "$folder"
 # 256 colours are enough for the editor and a third of the size.

@@ -1,8 +1,8 @@
 @tool
 extends EditorPlugin
-## Goes through the guide in the running editor with the mouse, takes a picture of each step and
-## quits: "++ --guide-pictures FOLDER [WALK]". Fails where something is not where the guide says.
-## The walks are guide and room, both if none is named; each leaves its clicks in a file.
+## Goes through a page of the guide in the running editor with the mouse, takes a picture of each
+## step and quits: "++ --guide-pictures FOLDER guide|room". Fails where something is not where the
+## page says.
 
 const Finder := preload("finder.gd")
 const Mouse := preload("mouse.gd")
@@ -21,9 +21,9 @@ var _mouse: Mouse
 func _enter_tree() -> void:
 	var arguments := OS.get_cmdline_user_args()
 	var option := arguments.find(OPTION)
-	if option >= 0 and option + 1 < arguments.size():
+	if option >= 0 and option + 2 < arguments.size():
 		_folder = arguments[option + 1]
-		_walk = arguments[option + 2] if option + 2 < arguments.size() else ""
+		_walk = arguments[option + 2]
 		_run.call_deferred()
 
 
@@ -34,25 +34,24 @@ func _run() -> void:
 	get_window().mode = Window.MODE_WINDOWED
 	get_window().size = SIZE
 	await _mouse.wait(1.5)
-	if _walk != "room":
-		await _go(SphereWalk.new(_mouse, _take), "guide")
+	if _walk == "room":
+		EditorInterface.set_plugin_enabled(SphereWalk.ADDON, true)
+		await _count(RoomWalk.new(_mouse, _take))
+	else:
+		await _count(SphereWalk.new(_mouse, _take))
 		var table := TableWalk.new(_mouse, _take)
 		await table.go()
 		await _show_import()
 		await _show_help()
-	if _walk != "guide":
-		if not EditorInterface.is_plugin_enabled(SphereWalk.ADDON):
-			EditorInterface.set_plugin_enabled(SphereWalk.ADDON, true)
-		await _go(RoomWalk.new(_mouse, _take), "room")
 	await _wait_for_files()
 	get_tree().quit(mini(_mouse.problems.size(), 1))
 
 
-func _go(walk: RefCounted, name: String) -> void:
-	var before := _mouse.clicks
+# The clicks of a walk are in the file that the page's number is held against.
+func _count(walk: RefCounted) -> void:
 	await walk.call("go")
-	var file := FileAccess.open(_folder.path_join("clicks_" + name), FileAccess.WRITE)
-	file.store_line(str(_mouse.clicks - before))
+	var file := FileAccess.open(_folder.path_join("clicks"), FileAccess.WRITE)
+	file.store_line(str(_mouse.clicks))
 
 
 func _wait_for_files() -> void:

@@ -108,8 +108,6 @@ func _open_room() -> void:
 	ResourceSaver.save(packed, SCENE)
 	EditorInterface.open_scene_from_path(SCENE)
 	EditorInterface.set_main_screen_editor("3D")
-	var tabs := Finder.tabs(EditorInterface.get_base_control(), "Scene")
-	tabs.current_tab = Finder.tab(tabs, "Scene")
 	await _mouse.wait(2.0)
 
 
