@@ -36,7 +36,7 @@ for walk in "${walks[@]}"; do
   go "$walk"
 done
 mkdir -p "$folder"
-# 256 colours are enough for the editor and a third of the size.
+# 256 colours are enough for the editor and a third of the size, but not for a large ball that mirrors a room.
 "$PYTHON" - "$work/pictures" "$folder" <<'PYTHON'
 import sys
 from pathlib import Path
@@ -44,6 +44,9 @@ from pathlib import Path
 from PIL import Image
 
 for picture in sorted(Path(sys.argv[1]).glob("*.png")):
-    Image.open(picture).quantize(256, dither=Image.Dither.NONE).save(Path(sys.argv[2]) / picture.name, optimize=True)
+    image = Image.open(picture)
+    if not picture.stem.endswith("_ball"):
+        image = image.quantize(256, dither=Image.Dither.NONE)
+    image.save(Path(sys.argv[2]) / picture.name, optimize=True)
 PYTHON
 say "The pictures are in $folder"
