@@ -169,6 +169,36 @@ func test_a_world_with_no_light_of_its_own_shows_the_first() -> void:
 	await _assert_shows(2, VALUES[0])
 
 
+func test_rooms_are_in_their_own_world() -> void:
+	_add_world(0)
+	_add_world(1)
+	_lights[1].hide()
+	await _frames(SETTLED)
+	var light := LobeLight.new()
+	var faces: Array[Image] = []
+	for i in 6:
+		faces.append(Image.create_empty(1, 1, false, Image.FORMAT_RGBAH))
+		faces[i].fill(Color(VALUES[3], VALUES[3], VALUES[3]))
+	light.faces = faces
+	var probe := LobeProbe3D.new()
+	probe.light = light
+	_views[0].add_child(probe)
+	await _assert_shows(0, VALUES[3])
+	await _assert_shows(1, VALUES[0])
+	# As in a world that comes later, and with any camera mask.
+	_add_world(2)
+	_lights[2].hide()
+	await _frames(1)
+	await _assert_shows(2, VALUES[0])
+	_views[0].camera.cull_mask = 0xFFFFFFFF
+	await _assert_shows(0, VALUES[3])
+	# A light of its own changes nothing for the other.
+	_lights[1].show()
+	await _frames(SETTLED)
+	await _assert_shows(0, VALUES[3])
+	await _assert_shows(1, VALUES[1])
+
+
 func test_a_fifth_world_shows_the_first_one_s_light() -> void:
 	for i in 5:
 		_add_world(i)

@@ -16,6 +16,8 @@ extends RefCounted
 ## [/codeblock]
 ## The last row of a world is its environment's.
 
+const WorldCameras := preload("world_cameras.gd")
+
 ## The layer of what all materials have as their environment.
 const ENVIRONMENT := -1
 ## Texels of a row, and how many worlds can be told.
@@ -61,6 +63,14 @@ func begin_world() -> void:
 ## else.
 func begin_captured() -> void:
 	_begin([_worlds - 1 + CAPTURED])
+
+
+## The lights that follow are those of worlds that have none.
+func begin_unlit() -> void:
+	_begin([WorldCameras.UNLIT])
+	# The editor draws its thumbnails with cameras that nobody tells.
+	if Engine.is_editor_hint():
+		_begin([WIDTH - 1])
 
 
 func _begin(columns: Array) -> void:

@@ -12,7 +12,7 @@ const LightWorld := preload("../light/light_world.gd")
 const LightStore := preload("light_store.gd")
 const WorldCameras := preload("world_cameras.gd")
 
-## Worlds that can be told from one another; those beyond show the first one's lights.
+## Worlds that can be told from one another; those beyond show the first one's environment.
 const MAX_WORLDS := 4
 
 var _list := LightList.new()
@@ -150,6 +150,9 @@ func _write() -> void:
 		if world != null and not world.probes.values().all(_store.has):
 			_list.begin_captured()
 			_write_world(world, true)
+	# Where nothing gives light, the first world's does, but for its rooms.
+	_list.begin_unlit()
+	_list.add(_primary, LightList.ENVIRONMENT, 0.0, 1.0, true)
 	_list.end()
 
 

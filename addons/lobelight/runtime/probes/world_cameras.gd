@@ -5,11 +5,13 @@ extends RefCounted
 ## CAMERA_VISIBLE_LAYERS is all that a shader sees of the world it is drawn in. Layers end at 20,
 ## and the editor's own begin at 24. The masks are changed on the rendering server only, so that
 ## [member Camera3D.cull_mask] stays what it is; and as nodes hand theirs on when they like, it is
-## done in each frame while there are several worlds.
+## done in each frame while there are cameras in several worlds.
 
 # Of the first layer that is no layer of nodes.
 const _SHIFT := 20
 const _BITS := 0xF << _SHIFT
+## The number of worlds that have no light.
+const UNLIT := 7
 
 var _worlds: Array[RID] = []
 var _tree: SceneTree
@@ -19,15 +21,12 @@ var _nodes: Array[Camera3D] = []
 ## These worlds, by their scenarios, are to be told from one another; the first one is what cameras
 ## show that nobody told.
 func tell(worlds: Array[RID]) -> void:
-	var had_several := _worlds.size() > 1
 	_worlds = worlds
-	var has_several := worlds.size() > 1
-	if has_several and not had_several:
+	if not worlds.is_empty() and _tree == null:
 		_begin()
-	elif had_several and not has_several:
+	elif worlds.is_empty():
 		_end()
-	if has_several:
-		_mark()
+	_mark()
 
 
 func get_worlds() -> Array[RID]:
@@ -36,7 +35,8 @@ func get_worlds() -> Array[RID]:
 
 ## [param more] is added to the world's number.
 func get_bits(scenario: RID, more := 0) -> int:
-	return (maxi(_worlds.find(scenario), 0) + more) << _SHIFT
+	var found := _worlds.find(scenario)
+	return (found + more if found >= 0 else UNLIT) << _SHIFT
 
 
 func _begin() -> void:
@@ -46,14 +46,13 @@ func _begin() -> void:
 	for camera: Camera3D in _tree.root.find_children("*", "Camera3D", true, false):
 		_nodes.append(camera)
 	_tree.node_added.connect(_on_node_added)
-	RenderingServer.frame_pre_draw.connect(_mark)
 
 
 func _end() -> void:
 	if _tree == null:
 		return
 	_tree.node_added.disconnect(_on_node_added)
-	RenderingServer.frame_pre_draw.disconnect(_mark)
+	_follow(false)
 	for i in _nodes.size():
 		if is_instance_valid(_nodes[i]):
 			var camera := _nodes[i]
@@ -64,11 +63,27 @@ func _end() -> void:
 
 func _on_node_added(node: Node) -> void:
 	var camera := node as Camera3D
-	if camera != null and camera not in _nodes:
+	if camera == null:
+		return
+	if camera not in _nodes:
 		_nodes.append(camera)
+	# In which world, is known then.
+	_follow(true)
+
+
+# Whether the cameras are looked at in each frame.
+func _follow(always: bool) -> void:
+	if always == RenderingServer.frame_pre_draw.is_connected(_mark):
+		return
+	if always:
+		RenderingServer.frame_pre_draw.connect(_mark)
+	else:
+		RenderingServer.frame_pre_draw.disconnect(_mark)
 
 
 func _mark() -> void:
+	# All others show the first world's lights as they are.
+	var has_several := false
 	for i in range(_nodes.size() - 1, -1, -1):
 		if not is_instance_valid(_nodes[i]):
 			_nodes.remove_at(i)
@@ -76,4 +91,6 @@ func _mark() -> void:
 		var camera := _nodes[i]
 		if camera.is_inside_tree():
 			var mask := camera.cull_mask & ~_BITS | get_bits(camera.get_world_3d().scenario)
+			has_several = has_several or mask != camera.cull_mask
 			RenderingServer.camera_set_cull_mask(camera.get_camera_rid(), mask)
+	_follow(has_several)
