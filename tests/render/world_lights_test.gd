@@ -91,6 +91,24 @@ func test_lights_are_turned_and_dimmed_in_their_worlds_only() -> void:
 	await _assert_shows(1, 0.5 * VALUES[1])
 
 
+func test_a_sky_s_energy_shows_at_once() -> void:
+	_add_world(0)
+	_add_world(1)
+	var surroundings := _views[1].camera.environment
+	SkyKit.set_sky(surroundings, "panorama")
+	(surroundings.sky.sky_material as PanoramaSkyMaterial).panorama = Kit.constant(0.8)
+	_lights[1].source = LobeEnvironment3D.Source.SKY
+	await _frames(SETTLED)
+	# Compatibility draws the sky anew, which takes a frame.
+	for energy: float in [0.5, 1.0, 0.25]:
+		surroundings.background_energy_multiplier = energy
+		if LinearViewport.is_compatibility():
+			await _frames(1)
+		else:
+			await _assert_shows(1, 0.8 * energy)
+		await _assert_shows(0, VALUES[0])
+
+
 func test_cameras_change_their_masks() -> void:
 	_add_world(0)
 	_add_world(1)

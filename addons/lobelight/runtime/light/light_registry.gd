@@ -135,9 +135,12 @@ static func refresh() -> void:
 
 
 ## Hands on a light's rotation, energy and box after they have changed.
-static func update_placement(light: LobeLight) -> void:
+## [param is_drawing] says that the frame's drawing begins, and nobody else will change anything.
+static func update_placement(light: LobeLight, is_drawing := false) -> void:
 	_mutex.lock()
-	if _placed != null:
+	if _placed != null and is_drawing:
+		_placed.write()
+	elif _placed != null:
 		_placed.mark_moved()
 	elif light == _shown:
 		for material: RID in _materials:

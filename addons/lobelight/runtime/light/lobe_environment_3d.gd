@@ -430,7 +430,7 @@ func _start_if_due() -> void:
 		if update_mode == UpdateMode.ONCE:
 			return
 		if _light_kind == EnvironmentSource.Kind.SKY_PANORAMA:
-			_update_placement()
+			_update_placement(true)
 		_stale = _is_live() or _source.look()
 		if not _stale:
 			return
@@ -559,9 +559,9 @@ func _check_in() -> void:
 	LightRegistry.offer(get_world_3d(), get_instance_id(), _light, fade_time)
 
 
-func _update_placement() -> void:
+func _update_placement(is_drawing := false) -> void:
 	if _light != null and _source.place(_light, _light_kind):
-		LightRegistry.update_placement(_light)
+		LightRegistry.update_placement(_light, is_drawing)
 
 
 # The other environments of the same world.

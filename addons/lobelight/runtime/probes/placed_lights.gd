@@ -83,7 +83,7 @@ func show(worlds: Dictionary[RID, LightWorld], neutral: LobeLight) -> void:
 	_cameras.tell(lit)
 	mark_moved()
 	# What is drawn before the next frame begins would show the list as it was.
-	_write()
+	write()
 
 
 ## A light has moved or changed its energy: the list is written before the next frame.
@@ -91,6 +91,22 @@ func mark_moved() -> void:
 	if not _awaits_frame:
 		_awaits_frame = true
 		RenderingServer.frame_pre_draw.connect(_on_frame_pre_draw)
+
+
+## Brings the list up to date.
+func write() -> void:
+	_list.begin()
+	for scenario in _cameras.get_worlds():
+		_list.begin_world()
+		var world: LightWorld = _worlds.get(scenario)
+		_write_world(world, false)
+		if world != null and not world.probes.values().all(_store.has):
+			_list.begin_captured()
+			_write_world(world, true)
+	# Where nothing gives light, the first world's does, but for its rooms.
+	_list.begin_unlit()
+	_list.add(_primary, LightList.ENVIRONMENT, 0.0, 1.0, true)
+	_list.end()
 
 
 ## The #defines that shaders need, without LOBELIGHT_.
@@ -138,22 +154,7 @@ func _list_textures() -> Array[RID]:
 func _on_frame_pre_draw() -> void:
 	RenderingServer.frame_pre_draw.disconnect(_on_frame_pre_draw)
 	_awaits_frame = false
-	_write()
-
-
-func _write() -> void:
-	_list.begin()
-	for scenario in _cameras.get_worlds():
-		_list.begin_world()
-		var world: LightWorld = _worlds.get(scenario)
-		_write_world(world, false)
-		if world != null and not world.probes.values().all(_store.has):
-			_list.begin_captured()
-			_write_world(world, true)
-	# Where nothing gives light, the first world's does, but for its rooms.
-	_list.begin_unlit()
-	_list.add(_primary, LightList.ENVIRONMENT, 0.0, 1.0, true)
-	_list.end()
+	write()
 
 
 # As cameras see it, or the captures of probes: for these, what has no light yet is dark, as a
