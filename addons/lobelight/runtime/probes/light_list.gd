@@ -3,7 +3,9 @@ extends RefCounted
 ## The lights of all worlds as a texture of numbers, read by placed_light.gdshaderinc.
 ##
 ## Row 0 has, for each world, its first row and the one behind its last; worlds as the captures of
-## probes see them are numbered from [constant CAPTURED] on. A light is a row of eight texels:
+## probes see them are numbered from [constant CAPTURED] on. A light is eight texels on a
+## diagonal, number k in column k of its row + k: reads that share a coordinate wait for one another
+## on some phones.
 ## [codeblock lang=text]
 ## 0 … 2   rows of the rotation from the world to the light; w: what is added, so that the middle of
 ##         the box is at 0
@@ -24,6 +26,7 @@ const ENVIRONMENT := -1
 const WIDTH := 16
 ## What is added to a world's number for what captures of probes see.
 const CAPTURED := 8
+const _TEXELS := 8
 # The box of what is seen alike from everywhere, half its size in metres.
 const _EVERYWHERE := 1e9
 # What rounding may add to the square of a distance.
@@ -117,10 +120,10 @@ func add(
 		Vector4(sharpest.y, level.y, level.z, 0.0),
 		Vector4(middle.x, middle.y, middle.z, -reach if starts_priority else reach),
 	]
-	_numbers.resize(4 * WIDTH * (_rows + 1))
-	for i in texels.size():
+	_numbers.resize(4 * WIDTH * (_rows + _TEXELS))
+	for i in _TEXELS:
 		for j in 4:
-			_numbers[4 * (WIDTH * _rows + i) + j] = texels[i][j]
+			_numbers[4 * (WIDTH * (_rows + i) + i) + j] = texels[i][j]
 	_rows += 1
 	for column in WIDTH:
 		if int(_numbers[4 * column]) == _first:
@@ -130,7 +133,7 @@ func add(
 ## Hands the list to the GPU if it is another one.
 func end() -> void:
 	# Textures that grow by powers of two are few.
-	var height := maxi(nearest_po2(_rows), 4)
+	var height := nearest_po2(_rows + _TEXELS)
 	_numbers.resize(4 * WIDTH * height)
 	var bytes := _numbers.to_byte_array()
 	if bytes == _bytes:
