@@ -146,6 +146,26 @@ func test_a_light_shared_by_two_worlds_is_shown_by_both() -> void:
 	here.free()
 
 
+func test_a_capture_leaves_the_lights_of_other_probes_alone() -> void:
+	var probe := _make_world(Transform3D.IDENTITY)
+	_add_walls(probe)
+	var probes: Array[LobeProbe3D] = [probe]
+	for index in 5:
+		var other := LobeProbe3D.new()
+		other.size = SIZE
+		other.origin_offset = Vector3(0.4 * index - 1.0, 0.5, -2.0)
+		other.cull_mask = ROOM
+		probe.get_parent().add_child(other)
+		probes.append(other)
+	var before: Array[PackedByteArray] = []
+	for each in probes:
+		assert_bool(await each.rebuild()).is_true()
+		before.append(each.get_light().faces[4].get_data())
+	for index in probes.size():
+		assert_bool(probes[index].get_light().faces[4].get_data() == before[index]).is_true()
+		assert_bool(before[index] == before[index - 1]).is_false()
+
+
 # As when a bake is cancelled: the room has other walls by now, but the light is the saved one.
 func test_a_capture_that_is_given_up_leaves_the_baked_light() -> void:
 	var live := await _capture_live()
