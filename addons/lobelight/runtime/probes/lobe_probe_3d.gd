@@ -17,10 +17,10 @@ extends Node3D
 ## box its light fades over [member blend_distance] into what lies there: the next probe or the
 ## environment.
 ## [br][br]
-## [b]Size and number.[/b] A light's faces have 256 × 256 texels, on phones 128 × 128, or as many as
-## the project setting [code]lobelight/probes/size[/code] says; captures draw
-## [code]lobelight/probes/views_per_frame[/code] of their six views in a frame. In Compatibility, the
-## four probes nearest to the camera are shown, and where the others are, the environment.
+## [b]Size and number.[/b] A light's faces have 256 × 256 texels, on phones 128 × 128, or as many
+## as the project setting [code]lobelight/probes/size[/code] says; captures draw
+## [code]lobelight/probes/views_per_frame[/code] of their six views in a frame. In Compatibility,
+## the four probes nearest to the camera are shown, and where the others are, the environment.
 ## [br][br]
 ## Names and defaults are those of [ReflectionProbe], and so is what they do where nothing else is
 ## said. Its box projection is always on here, and its ambient light is not there:
