@@ -46,8 +46,10 @@ func build() -> void:
 		Color(0.8, 0.81, 0.83),
 		LiftDoor.build()
 	)
-	door.material.roughness = 0.4
+	door.material.roughness = 0.3
 	door.material.anisotropy = 0.8333
+	# Wide across the brushing.
+	door.material.anisotropy_rotation = 0.5 * PI
 	var teapot := _add_object(
 		"Blue teapot", DemoObject.Shape.TEAPOT, Vector3(2.85, 0.725, -0.97), Color(0.3, 0.5, 0.85)
 	)
@@ -60,6 +62,7 @@ func build() -> void:
 	vase.scale = Vector3(0.4, 0.46, 0.4)
 	vase.material.roughness = 0.35
 	vase.material.anisotropy = 0.6
+	vase.material.anisotropy_rotation = 0.5 * PI
 	var knot := _add_object(
 		"Golden knot", DemoObject.Shape.KNOT, Vector3(5.65, 0.96, -1.05), Color(1.0, 0.78, 0.38)
 	)

@@ -51,6 +51,7 @@ func _add(box: AABB, origin: Vector3, is_room: bool) -> void:
 	lobes.interior = is_room
 	lobes.blend_distance = _BLEND
 	lobes.cull_mask = _CAPTURED
+	lobes.max_distance = 0.0 if is_room else _REACH
 	lobes.priority = 0 if is_room else _YARD_PRIORITY
 	_lobe_probes.append(lobes)
 	add_child(lobes)
