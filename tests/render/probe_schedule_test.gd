@@ -122,6 +122,52 @@ func test_probes_of_every_frame_leave_others_their_turns() -> void:
 	assert_int(_rebuilt[greedy]).is_greater(10)
 
 
+func test_a_lamp_s_change_has_the_rooms_captured_that_it_reaches() -> void:
+	var lamp := OmniLight3D.new()
+	lamp.omni_range = 3.0
+	_view.add_child(lamp)
+	var near := _add_probe(Vector3.ZERO, 4.0)
+	var far := _add_probe(Vector3(20.0, 0.0, 0.0), 4.0)
+	for probe: LobeProbe3D in [near, far]:
+		probe.update_mode = MODES.WHEN_CHANGED
+	var once := _add_probe(Vector3.ZERO, 4.0)
+	await _until_rebuilt([near, far, once])
+	await _assert_rebuilt([near, far, once], [0, 0, 0])
+	lamp.light_energy = 2.0
+	await _assert_rebuilt([near, far, once], [1, 0, 0])
+	lamp.hide()
+	await _assert_rebuilt([near, far, once], [1, 0, 0])
+	# Nobody sees what it is while it is off.
+	lamp.light_color = Color.RED
+	await _assert_rebuilt([near, far, once], [0, 0, 0])
+	lamp.show()
+	await _assert_rebuilt([near, far, once], [1, 0, 0])
+	# From one room to the other, and back as it reaches both.
+	lamp.position.x = 20.0
+	await _assert_rebuilt([near, far, once], [1, 1, 0])
+	lamp.omni_range = 30.0
+	await _assert_rebuilt([near, far, once], [1, 1, 0])
+	lamp.omni_range = 3.0
+	await _assert_rebuilt([near, far, once], [1, 1, 0])
+	# In another world it reaches neither.
+	var other := LinearViewport.new(4)
+	add_child(other)
+	_view.remove_child(lamp)
+	other.add_child(lamp)
+	await _assert_rebuilt([near, far, once], [0, 1, 0])
+	lamp.light_energy = 3.0
+	await _assert_rebuilt([near, far, once], [0, 0, 0])
+	other.remove_child(lamp)
+	_view.add_child(lamp)
+	await _assert_rebuilt([near, far, once], [0, 1, 0])
+	lamp.free()
+	await _assert_rebuilt([near, far, once], [0, 1, 0])
+	other.free()
+	var sun := DirectionalLight3D.new()
+	_view.add_child(sun)
+	await _assert_rebuilt([near, far, once], [1, 1, 0])
+
+
 func test_every_frame_is_each_frame_for_one_probe() -> void:
 	var probe := _add_probe(Vector3.ZERO, 2.0)
 	probe.update_mode = MODES.EVERY_FRAME
@@ -277,6 +323,17 @@ func _until_rebuilt(probes: Array[LobeProbe3D]) -> void:
 			return
 		await RenderingServer.frame_post_draw
 	fail("The probes are not captured.")
+
+
+# How often each is captured anew in the next frames.
+func _assert_rebuilt(probes: Array[LobeProbe3D], expected: Array[int]) -> void:
+	for probe in probes:
+		_rebuilt[probe] = 0
+	await _frames(50)
+	var counts: Array[int] = []
+	for probe in probes:
+		counts.append(_rebuilt[probe])
+	assert_array(counts).is_equal(expected)
 
 
 # From now on, what is drawn for probes. To be called when probes have been asked for, so that the

@@ -252,9 +252,9 @@ func get_light() -> LobeLight:
 
 func _watch_lamps() -> void:
 	if _is_shown and light == null and update_mode == UpdateMode.WHEN_CHANGED:
-		LampWatch.add(_view.light, _mark_stale)
+		LampWatch.add(_view, _mark_stale)
 	else:
-		LampWatch.remove(_view.light)
+		LampWatch.remove(_view)
 
 
 # Why there is nothing to capture, in a sentence; empty if there is.
@@ -285,7 +285,7 @@ func _update_shown() -> void:
 
 func _leave() -> void:
 	ProbeSchedule.drop(_view)
-	LampWatch.remove(_view.light)
+	LampWatch.remove(_view)
 	if _is_awaited:
 		_is_awaited = false
 		_error = "The probe has been hidden, or has left its world."
@@ -328,7 +328,6 @@ func _on_captured(succeeded: bool) -> void:
 # Takes the faces of the baked light, which other probes may have as well, each at its own place.
 func _show_baked() -> void:
 	var before := _view.light
-	LampWatch.remove(before)
 	_view.light = LobeLight.new()
 	if light != null:
 		# A capture under way would overwrite it.
