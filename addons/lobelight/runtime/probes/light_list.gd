@@ -13,7 +13,7 @@ extends RefCounted
 ## 4       from where the light is seen to the middle of the box, along the light's axes; w: layer
 ## 5       bias of the weight, energy, s and k of lobelight_level
 ## 6       of stretched levels: the rest of s and of k
-## 7       the middle of the box in the world; w: the square of how far the light reaches from there,
+## 7       the middle of the box in the world; w: the square of how far the light reaches from it,
 ##         negative where lights of a lower priority begin
 ## [/codeblock]
 ## The last row of a world is its environment's.
