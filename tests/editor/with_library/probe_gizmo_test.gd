@@ -4,6 +4,7 @@ extends GdUnitTestSuite
 
 const BoxHandles := preload("res://addons/lobelight/editor/gizmos/box_handles.gd")
 const Kit := preload("res://tests/editor/editor_kit.gd")
+const ProbeCamera := preload("res://addons/lobelight/runtime/probes/probe_camera.gd")
 const ProbeGizmo := preload("res://addons/lobelight/editor/gizmos/probe_gizmo.gd")
 
 const SCENE := "res://probe_gizmo.tscn"
@@ -243,6 +244,17 @@ func _find_distance(axis: int, place: float, point: Vector2) -> float:
 	var from := _camera.project_ray_origin(point)
 	var to := from + 200.0 * _camera.project_ray_normal(point)
 	return Geometry3D.get_closest_point_to_segment(start, from, to).distance_to(start)
+
+
+# The edited scene's viewport has no camera of its own.
+func test_the_editor_s_camera_counts_for_probes() -> void:
+	var shown := EditorInterface.get_editor_viewport_3d(0).get_camera_3d()
+	assert_object(ProbeCamera.find(_probe)).is_same(shown)
+	# Not for those of the editor's own views.
+	var other := LobeProbe3D.new()
+	_camera.get_parent().add_child(other)
+	_camera.current = true
+	assert_object(ProbeCamera.find(other)).is_same(_camera)
 
 
 func test_all_selected_probes_show_their_boxes() -> void:

@@ -4,6 +4,8 @@ extends "light_store.gd"
 ## few that matter most to the camera; the others are left out, and where they are, the environment
 ## shows.
 
+const ProbeCamera := preload("probe_camera.gd")
+
 ## Cube maps beside the environment's.
 const CUBES := 4
 # Seconds between looks at where the camera is, while there are more lights than cube maps.
@@ -134,7 +136,7 @@ static func _find_camera(probe: int) -> Vector3:
 	var node := instance_from_id(probe) as Node3D
 	if node == null or not node.is_inside_tree():
 		return Vector3.ZERO
-	var camera := node.get_viewport().get_camera_3d()
+	var camera := ProbeCamera.find(node)
 	return camera.global_position if camera != null else node.global_position
 
 

@@ -2,6 +2,7 @@
 extends RefCounted
 ## A probe as its captures see it: where it looks from, and the light that they make.
 
+const ProbeCamera := preload("probe_camera.gd")
 const ViewPlace := preload("../light/view_place.gd")
 const WorldLight := preload("../light/world_light.gd")
 
@@ -38,7 +39,7 @@ func update_place() -> void:
 
 ## How large the box looks from the camera of its viewport, which goes first.
 func get_urgency() -> float:
-	var camera := node.get_viewport().get_camera_3d()
+	var camera := ProbeCamera.find(node)
 	var point := camera.global_position if camera != null else place.origin
 	var local := (point - light.box_middle) * light.rotation
 	var distance := (local.abs() - 0.5 * light.box_size).max(Vector3.ZERO).length()
