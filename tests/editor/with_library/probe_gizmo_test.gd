@@ -134,6 +134,24 @@ func test_each_face_moves_alone() -> void:
 		assert_array(_get_state()).is_equal(before)
 
 
+func test_snapped_lengths_are_multiples_of_the_step() -> void:
+	var before := AABB(-0.5 * SIZE, SIZE)
+	for id in 6:
+		@warning_ignore("integer_division")
+		var axis := id / 2
+		var outwards := -1.0 if id % 2 else 1.0
+		for symmetric: bool in [false, true]:
+			var box := BoxHandles.drag(SIZE, id, outwards * 4.37, symmetric, 0.5, 0.02)
+			var exact := 2.0 * 4.37 if symmetric else 4.37 + 0.5 * SIZE[axis]
+			assert_float(box.size[axis]).is_equal(roundf(2.0 * exact) / 2.0)
+			if symmetric:
+				assert_float(box.get_center()[axis]).is_equal(0.0)
+			elif id % 2:
+				assert_float(box.end[axis]).is_equal(before.end[axis])
+			else:
+				assert_float(box.position[axis]).is_equal(before.position[axis])
+
+
 func test_with_alt_both_faces_move() -> void:
 	_press_alt(true)
 	for id in 6:
