@@ -35,7 +35,7 @@ const ASKING := [
 	["material.set(property, 0.1)", [0, 1, 2, 3, 4]],
 	["LobeMaterial3D.get_losses_from(material)", [5]],
 	['material.call("to_standard")', [5]],
-	["add_child(LobeProbe3D.new())", [6]],
+	["add_child(LobeProbe3D.new())", [3, 4, 6]],
 	["viewport.own_world_3d = true", [6]],
 	["$Light.fade_time = 2.0", [6]],
 	["viewport.world_2d = null", []],
@@ -120,7 +120,11 @@ func test_scenes_may_declare_features() -> void:
 
 
 func test_scenes_of_probes_or_of_several_worlds_have_what_tells_places() -> void:
-	_expect_features_of_scene(LobeProbe3D.new(), [6])
+	# Captures draw the surroundings; a light that was baked needs none.
+	_expect_features_of_scene(LobeProbe3D.new(), [3, 4, 6])
+	var probe := LobeProbe3D.new()
+	probe.light = LobeLight.make_dark(true)
+	_expect_features_of_scene(probe, [6])
 	var viewport := SubViewport.new()
 	_expect_features_of_scene(viewport, [])
 	viewport = SubViewport.new()

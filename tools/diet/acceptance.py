@@ -36,6 +36,8 @@ SCENES = {
     "everything": "textures, clear coat, emission, capture",
     "by_script": "widths set by a script, the scene's sky",
     "panorama": "one isotropic material, a panorama that nothing else shows",
+    # The last one, because its probe stays with the renderer for a while.
+    "room": "one isotropic material in a room that a probe lights",
 }
 # The preset that cuts nothing.
 WHOLE = "whole"
@@ -292,6 +294,14 @@ def check_panorama(checks, whole, cut, rows):
     checks.expect("panorama: the report says so", [(one["before"], one["after"]) for one in said] == [(before, after)])
 
 
+def check_probes(checks, work):
+    """Only the scene with a probe has files of probes."""
+    for scene in SCENES:
+        folder = f"{ADDON}/runtime/probes/"
+        files = [name for name, _size, _start in read_files(work / scene / "game.pck") if name.startswith(folder)]
+        checks.expect(f"{scene}: {len(files)} files of probes", bool(files) == (scene == "room"))
+
+
 def check_asking(checks, pack):
     """A script that reaches what the pack leaves out gets nothing, one sentence, and the light back when it asks no more."""
     scene = "res://tests/diet/scenes/isotropic.tscn"
@@ -398,6 +408,7 @@ def main():
         )
         check_chosen(checks, work / "project", work / CHOSEN, rows)
         check_panorama(checks, work / WHOLE / "game.pck", work / "panorama/game.pck", rows)
+        check_probes(checks, work)
         check_asking(checks, work / "isotropic/game.pck")
         if options.instructions:
             print("instructions", file=sys.stderr, flush=True)

@@ -7,6 +7,7 @@ extends RefCounted
 
 const LobeEnvironment := preload("../../runtime/light/lobe_environment_3d.gd")
 const LightSettings := preload("../../runtime/light/light_settings.gd")
+const LobeProbe := preload("../../runtime/probes/lobe_probe_3d.gd")
 const OnDemand := preload("../../runtime/on_demand.gd")
 
 const RUN_TIME := "res://addons/lobelight/runtime/"
@@ -34,7 +35,7 @@ const _WORDS: Dictionary[String, String] = {
 	COAT: "clearcoat\\w*",
 	DIFFUSE: "metallic|metallic_texture|orm_texture",
 	OnDemand.FILTERS: "filter",
-	OnDemand.SKIES: "source|panorama|LobeEnvironment3D",
+	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
 	OnDemand.CONVERSION: "from_standard|to_standard|get_losses_from",
 	OnDemand.PLACES: "LobeProbe3D|own_world_3d|world_3d|fade_time",
 }
@@ -113,9 +114,14 @@ func look_at_node(file: String, properties: Dictionary, is_instance: bool) -> vo
 	if properties.get("own_world_3d", false) or properties.has("world_3d"):
 		add(OnDemand.PLACES, file)
 	var script: Script = properties.get("script") as Script
-	while script != null and script != LobeEnvironment:
+	while script != null and script != LobeEnvironment and script != LobeProbe:
 		script = script.get_base_script()
 	if script == null:
+		return
+	if script == LobeProbe:
+		# Unless its light was baked.
+		if properties.get("light") == null:
+			add(OnDemand.SKIES, file)
 		return
 	environments.append([file, properties])
 	if properties.get("fade_time", 0.0) > 0.0:
