@@ -35,6 +35,7 @@ CHANGES = {
     "material.gdshaderinc": ("-16.0 * roughness", "-12.0 * roughness", ["material_everything_levels"]),
     "material_inputs.gdshaderinc": ("texel * 2.0 - 1.0", "texel * 2.0 - 0.99", ["material_with_maps_directions"]),
     "panorama.gdshaderinc": ("0.156583", "0.157583", ["panorama_1"]),
+    "placed_light.gdshaderinc": ("along = p * quotient", "along = 0.999 * p * quotient", ["placed_0"]),
     "pyramid_pack.gdshader": ("uvec4(255u)", "uvec4(254u)", ["pack_4_0"]),
     "pyramid_panorama.gdshader": ("2.0 * float(samples)", "2.1 * float(samples)", ["pyramid_disc_16_32"]),
     "pyramid_reduce.gdshader": ("near_x ? 3.0", "near_x ? 2.9", ["pyramid_binomial_16_32"]),
@@ -132,8 +133,9 @@ class Mediump(unittest.TestCase):
         rounded = 0
         for path in (path for path in projects.shaders() if path.suffix == ".gdshaderinc"):
             rounded += change(path.name, path.read_text(encoding="utf-8")).count("half_of_phones(")
-        # The table twice over and its tints, the coat's table, and the environment for lobes and diffuse light.
-        self.assertEqual(rounded, 7)
+        # The table twice over and its tints, the coat's table, twice, the environment for lobes and diffuse light, and of
+        # placed lights that, four probes, their array and three more environments.
+        self.assertEqual(rounded, 17)
 
 
 def add_tests():

@@ -15,6 +15,17 @@ config/name="Stability"
 textures/vram_compression/import_etc2_astc=true
 """
 
+CLASSES = f"""list=[{{
+"base": &"Resource",
+"class": &"LobeLight",
+"icon": "",
+"is_abstract": false,
+"is_tool": true,
+"language": &"GDScript",
+"path": "res://{RUNTIME}/light/lobe_light.gd"
+}}]
+"""
+
 
 def shaders():
     """The shaders of the run time."""
@@ -41,6 +52,10 @@ def copy_shaders(project, change, variant=""):
         if source in own:
             text = change(source.name, text)
         target.write_text(text, encoding="utf-8")
+    # The project is not imported, which is what finds classes.
+    classes = project / ".godot/global_script_class_cache.cfg"
+    classes.parent.mkdir(exist_ok=True)
+    classes.write_text(CLASSES, encoding="utf-8")
     if not (project / "project.godot").exists():
         (project / "project.godot").write_text(PROJECT, encoding="utf-8")
     return root

@@ -11,6 +11,7 @@ import shader_frames
 import shader_light
 import shader_material
 import shader_passes
+import shader_placed
 import shader_points
 import shader_pyramid
 import shader_tables
@@ -56,7 +57,8 @@ def make(quick, records):
     fitted = list(fitted_tables(records, quick))
     lit_tables, lit = shader_light.probes(quick)
     worn_tables, worn_textures, worn = shader_material.probes(quick)
-    textures = worn_textures | probe_textures.textures() | {"panorama": shader_values.panorama_texture()}
+    lists, placed = shader_placed.probes(quick)
+    textures = worn_textures | lists | probe_textures.textures() | {"panorama": shader_values.panorama_texture()}
     textures |= {table.name: table.texture() for table in [*tables, *lit_tables, *worn_tables, *(t for t, _title in fitted)]}
     probes = [
         *shader_values.probes(quick),
@@ -67,6 +69,7 @@ def make(quick, records):
         *(shader_tables.lobe_probe(table, title, quick, few=True) for table, title in fitted),
         *lit,
         *worn,
+        *placed,
     ]
     passes, pyramids = shader_passes.passes(quick), shader_pyramid.pyramids(quick)
     return textures | shader_pyramid.textures(pyramids, passes), probes, passes, pyramids
