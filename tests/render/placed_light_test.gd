@@ -151,6 +151,17 @@ func test_materials_with_holes_are_drawn() -> void:
 	assert_int(seen).is_between(SIDE * SIDE / 4, SIDE * SIDE * 6 / 10)
 
 
+func test_samplers_are_counted() -> void:
+	var material := _metal(8, Vector2(0.1, 0.3))
+	assert_dict(material.get_fetches()).is_equal({"environment": 8, "table": 8, "samplers": 2})
+	var probe := _add_probe(_make_light(4, _constant(1.0)), Vector3.ZERO, 4.0 * Vector3.ONE)
+	# The list of lights, and their array or, in Compatibility, four cube maps.
+	var samplers := 7 if LinearViewport.is_compatibility() else 4
+	assert_dict(material.get_fetches()).is_equal({"environment": 8, "table": 8, "samplers": samplers})
+	probe.free()
+	assert_dict(material.get_fetches()).is_equal({"environment": 8, "table": 8, "samplers": 2})
+
+
 # All that looks up light: lobes by eights and others, diffuse light, coats.
 func _materials() -> Array[LobeMaterial3D]:
 	var plastic := LobeMaterial3D.new()

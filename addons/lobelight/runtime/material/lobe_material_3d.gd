@@ -436,7 +436,7 @@ func needs_tangents() -> bool:
 	return needed
 
 
-## How often a pixel looks something up, counted from the shader:
+## How often a pixel looks something up for each light that reaches it, counted from the shader:
 ## [code]{"environment": int, "table": int, "samplers": int}[/code], the last being the samplers
 ## besides those of the material's own textures.
 func get_fetches() -> Dictionary[String, int]:

@@ -44,7 +44,20 @@ static func count_fetches(inputs: MaterialInputs, choice: TableChoice) -> Dictio
 		environment += choice.coat.lobe_count
 		table += choice.coat.lobe_count
 		samplers += 1
+	if "PLACED" in defines:
+		samplers += _count_placed_samplers(defines)
 	return {"environment": environment, "table": table, "samplers": samplers}
+
+
+# See probes/placed_light.gdshaderinc: the list, and an array of cube maps or four of them.
+static func _count_placed_samplers(defines: PackedStringArray) -> int:
+	if RenderingServer.get_current_rendering_method() == "gl_compatibility":
+		return 5
+	var samplers := 2
+	for define in defines:
+		if define.begins_with("ENVIRONMENTS "):
+			samplers += define.get_slice(" ", 1).to_int()
+	return samplers
 
 
 static func _render_modes(inputs: MaterialInputs) -> PackedStringArray:
