@@ -175,6 +175,30 @@ func test_the_lamp_of_the_studio_moves_in_reflections() -> void:
 	assert_float(_difference(before, after, place)).is_greater(1e-3)
 
 
+func test_the_ball_shows_the_room_that_it_is_in() -> void:
+	const BALL := 0
+	_demo.environment_index = 3
+	# In the warm room, in the cool one.
+	var warmth: Array[float] = []
+	var lit := 0.0
+	for turn: float in [-0.8, 0.4]:
+		_demo.turn = turn
+		var ball := (await _draw()).get_region(Rect2i(_place_of(BALL).grow(-2.0)))
+		lit = lit if lit > 0.0 else _mean(ball)
+		var mean := Vector3.ZERO
+		for y in ball.get_height():
+			for x in ball.get_width():
+				var texel := ball.get_pixel(x, y)
+				mean += Vector3(texel.r, texel.g, texel.b)
+		warmth.append(mean.x / mean.z)
+	assert_float(warmth[0]).is_greater(1.5 * warmth[1])
+	# Without its lamp the warm room is dark, in the ball too.
+	_demo.turn = -0.8
+	_demo.switch_lamp(false)
+	var dark := (await _draw()).get_region(Rect2i(_place_of(BALL).grow(-2.0)))
+	assert_float(_mean(dark)).is_less(0.6 * lit)
+
+
 func test_sliders_change_what_they_are_for() -> void:
 	var before := await _draw()
 	for widths: Vector3 in [
