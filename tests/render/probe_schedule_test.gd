@@ -284,6 +284,31 @@ func test_hundreds_of_updates_leave_nothing_behind() -> void:
 			return
 
 
+func test_probes_of_two_worlds_take_turns() -> void:
+	var other := LinearViewport.new(4)
+	other.camera.environment.background_color = Color.GREEN
+	add_child(other)
+	_view.camera.environment.background_color = Color.RED
+	var probes := _add_probes(2)
+	_view.remove_child(probes[1])
+	other.add_child(probes[1])
+	for probe in probes:
+		probe.update_mode = MODES.EVERY_FRAME
+	await _frames(20)
+	var before: Dictionary = await _in_use()
+	_rebuilt[probes[1]] = 0
+	await _frames(40)
+	assert_int(_rebuilt[probes[1]]).is_between(15, 25)
+	_assert_colour(_colour_of(probes[0]), Color.RED)
+	_assert_colour(_colour_of(probes[1]), Color.GREEN)
+	assert_dict(await _in_use()).is_equal(before)
+	# What is left of a world that has gone does not stay.
+	var gone: WeakRef = weakref(other.find_world_3d())
+	other.free()
+	await _frames(ProbeSchedule._IDLE_FRAMES + 4)
+	assert_bool(gone.get_ref() == null).is_true()
+
+
 func test_rebuilds_and_comings_and_goings_leave_nothing_behind() -> void:
 	var before := {}
 	for turn in 18:
