@@ -157,7 +157,9 @@ func test_samplers_are_counted() -> void:
 	var probe := _add_probe(_make_light(4, _constant(1.0)), Vector3.ZERO, 4.0 * Vector3.ONE)
 	# The list of lights, and their array or, in Compatibility, four cube maps.
 	var samplers := 7 if LinearViewport.is_compatibility() else 4
-	assert_dict(material.get_fetches()).is_equal({"environment": 8, "table": 8, "samplers": samplers})
+	assert_dict(material.get_fetches()).is_equal(
+		{"environment": 8, "table": 8, "samplers": samplers}
+	)
 	probe.free()
 	assert_dict(material.get_fetches()).is_equal({"environment": 8, "table": 8, "samplers": 2})
 
