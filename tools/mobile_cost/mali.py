@@ -6,8 +6,7 @@
 
 Cycles are the compiler's own estimate of a pixel's cost in its busiest unit; `arith`, `fma`, `cvt`, `sfu`, `t` (textures),
 `ldst` and `ls` (memory, uniforms), `v` (varyings) are those of the units. `threads` is 2 if so few registers are used that
-twice as many threads run at once. Loops are counted once; none of the variants has one on these GPUs, and `row` says so
-where one has.
+twice as many threads run at once. Loops are counted once, and `row` says where there is one: over the lights around a pixel.
 """
 
 import re

@@ -20,6 +20,9 @@ GOALS = (
 GOAL_GPU = "adreno630"
 # Directions from uniforms serve materials whose widths are the same all over; the other samples per pixel.
 QUARTERS = (("gmm8", "fis40"), ("gmm8", "fis40_ggx"))
+# What the first probe may add.
+PROBES = (("gmm8_probe", "gmm8"), ("gmm8_probe_isotropic", "gmm8_isotropic"))
+MOST_WITH_PROBE = 1.25
 
 
 def table(head, rows):
@@ -77,6 +80,11 @@ def goals(rows):
         if name in found and rival in found:
             share = found[name]["instructions"] / found[rival]["instructions"]
             told.append((f"{name} over {rival}: {share:.3f} of the instructions, less than 0.25 wanted", share < 0.25))
+    for name, without in PROBES:
+        if name in found and without in found:
+            ratio = found[name]["instructions"] / found[without]["instructions"]
+            text = f"{name} over {without}: {ratio:.2f} of the instructions, at most {MOST_WITH_PROBE} wanted"
+            told.append((text, ratio <= MOST_WITH_PROBE))
     return told
 
 
