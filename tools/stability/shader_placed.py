@@ -19,8 +19,8 @@ from shader_points import exact_level, level_bound, light, turn
 WIDTH, TEXELS = 16, 8
 WORLD = 3
 EVERYWHERE = 1e9
-# As near as a wall counts as (LOBELIGHT_NEAREST_WALL), of half the box.
-NEAREST = float(np.float32(0.9))
+# As near as a wall counts as: in metres, and of half the box (LOBELIGHT_NEAREST_WALL, LOBELIGHT_NEAREST_SHARE).
+NEAREST_WALL, NEAREST_SHARE = float(np.float32(0.15)), float(np.float32(0.9))
 SIZE, FILTER_NAME = 128, "disc"
 
 
@@ -84,7 +84,8 @@ class Room:
         the blur is seen from there; its relative bound)."""
         at, off = self.local(place)
         d = [dot(vector(axis), direction) for axis in self.axes]
-        inside = [min(max(x, -mpf(NEAREST * h)), mpf(NEAREST * h)) for x, h in zip(at, self.half)]
+        largest = [mpf(max(NEAREST_SHARE * h, h - NEAREST_WALL)) for h in self.half]
+        inside = [min(max(x, -most), most) for x, most in zip(at, largest)]
         each, worst = [], 0.0
         for x, m, h in zip(inside, d, map(mpf, self.half)):
             each.append(abs(m) / (h - x if m > 0 else h + x))
