@@ -30,6 +30,14 @@ var _panorama: Texture2D
 var _roughness := 0.0
 var _anisotropy := 0.0
 var _is_turned := false
+# The project's own, while the ones for probes are set.
+var _settings_before: Dictionary[String, Variant] = {}
+
+
+func _notification(what: int) -> void:
+	if what == NOTIFICATION_PREDELETE:
+		for setting: String in _settings_before:
+			ProjectSettings.set_setting(setting, _settings_before[setting])
 
 
 func prepare(stage: ComparisonStage) -> String:
@@ -40,8 +48,10 @@ func prepare(stage: ComparisonStage) -> String:
 	_roughness = parameters.x
 	_anisotropy = minf(parameters.y, 1.0)
 	if room != null:
-		# Read when a world is made: the viewport's comes later.
+		# Read when a world is made: the viewport's comes later. Worlds of others, which may have more
+		# probes, have the project's again.
 		for setting: String in _PROBE_SETTINGS:
+			_settings_before[setting] = ProjectSettings.get_setting(setting)
 			ProjectSettings.set_setting(setting, _PROBE_SETTINGS[setting])
 	return ""
 

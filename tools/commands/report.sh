@@ -5,6 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 usage() {
   cat <<USAGE
 usage: ./dev report [--quick] [--minutes N] [--device] [--renderers R,R…] [--maps FILE,FILE…] [OPTIONS]
+       ./dev report --rooms [--renderer R] [--size N] [--samples N] [--timing-rounds N] [--cases N] [--json FILE] [--out DIR]
 
 --quick          a few cases at 64 x 64 in the Mobile renderer, in a few minutes
 --minutes N      measures no longer than that, and writes the report of what there is; what says the most is measured
@@ -22,6 +23,9 @@ usage: ./dev report [--quick] [--minutes N] [--device] [--renderers R,R…] [--m
                  below build/report with --quick, --maps, --renderers, --methods, --cases, --size, --samples or
                  --timing-rounds)
 
+--rooms          instead of all that, a sphere in three rooms, in three places and of three materials, in one renderer
+                 (default: mobile, 128 x 128, 256 samples, docs/report/rooms): some minutes
+
 A run that was stopped goes on: cases that DIR/compare/results.json has, measured with the same sources and maps, are
 kept. Takes about half an hour on two cores. The metric is that of ./dev compare, and the pictures are drawn by its code.
 Methods, materials, maps and settings are those of tools/report/cases.py.
@@ -30,14 +34,16 @@ USAGE
 
 help_if_asked "$@"
 
+script=report.py
+if [[ " $* " == *" --rooms "* ]]; then script=rooms.py; fi
 need_python report
 export PYTHONDONTWRITEBYTECODE=1 LOBELIGHT_CWD=$PWD
 # What is wrong with the options is said before anything is built.
-"$PYTHON" "$ROOT/tools/report/report.py" --check "$@"
+"$PYTHON" "$ROOT/tools/report/$script" --check "$@"
 if [[ " $* " == *" --device "* && -z ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
   die "report: --device draws with the GPU of your display, but neither DISPLAY nor WAYLAND_DISPLAY is set"
 fi
 need_engine
 need_library
 need_import
-exec "$PYTHON" "$ROOT/tools/report/report.py" "$@"
+exec "$PYTHON" "$ROOT/tools/report/$script" "$@"
