@@ -4,7 +4,6 @@ extends Node3D
 
 const DemoObject := preload("../demo_object.gd")
 const House := preload("house.gd")
-const Layers := preload("../layers.gd")
 const LiftDoor := preload("lift_door.gd")
 const OrbitCamera := preload("../orbit_camera.gd")
 const Plan := preload("plan.gd")

@@ -54,6 +54,8 @@ compare_refuses() {
 
 refuses "bench runtime, unknown renderer" "there is no renderer 'metal'" bench runtime --renderer metal
 refuses "bench runtime, no scale" "--scale must be" bench runtime --scale none
+refuses "bench rooms, unknown renderer" "there is no renderer 'metal'" bench rooms --renderer metal
+refuses "bench rooms, no probes" "--probes must be" bench rooms --probes none
 
 good_bake=(--brdf ward --lobes 4 --out table.res)
 bake_refuses "alpha of zero" "alpha" "${good_bake[@]}" --alpha 0,0.1

@@ -2,7 +2,6 @@ extends GdUnitTestSuite
 ## The demo's interior: what it shows when, where its ball goes, and what its rooms are lit by.
 
 const Controls := preload("res://demo/interface/controls.gd")
-const DemoObject := preload("res://demo/demo_object.gd")
 const DemoRoot := preload("res://demo/demo.gd")
 const DemoScene := preload("res://demo/demo.tscn")
 const Interior := preload("res://demo/interior/interior.gd")

@@ -4,7 +4,6 @@ extends GdUnitTestSuite
 
 const Kit := preload("support/render_kit.gd")
 const LightStore := preload("res://addons/lobelight/runtime/probes/light_store.gd")
-const ProbeCubes := preload("res://addons/lobelight/runtime/probes/probe_cubes.gd")
 const SkyKit := preload("support/sky_kit.gd")
 const SIDE := 160
 const COUNT := 6

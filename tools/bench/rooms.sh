@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What scripts take in each frame of a scene of many rooms: see usage().
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/rendered.sh"
 
 usage() {
   cat <<USAGE
@@ -19,24 +20,4 @@ USAGE
 }
 
 help_if_asked "$@"
-renderer=mobile
-arguments=()
-while (($# > 0)); do
-  if [[ $1 == --renderer ]]; then
-    (($# > 1)) || die "bench rooms: $1 needs a value"
-    renderer=$2
-    shift 2
-  else
-    arguments+=("$1")
-    shift
-  fi
-done
-case $renderer in
-  mobile | gl_compatibility | forward_plus) ;;
-  *) die "bench rooms: there is no renderer '$renderer'; take mobile, gl_compatibility or forward_plus" ;;
-esac
-
-need_engine
-need_import
-export LOBELIGHT_CWD=$PWD
-godot_rendered "$renderer" --no-header --script res://bake/bench_rooms.gd -- "${arguments[@]}"
+bench_rendered rooms res://bake/bench_rooms.gd "$@"

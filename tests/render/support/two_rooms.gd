@@ -6,8 +6,6 @@ const ROOMS := preload("two_rooms.gdshaderinc")
 ## The boxes' sizes and middles, as in two_rooms.gdshaderinc.
 const SIZE := Vector3(3.0, 2.5, 3.4)
 const MIDDLES: Array[Vector3] = [Vector3(-1.5, 0.0, 0.0), Vector3(1.5, 0.0, 0.0)]
-## The way through both doorways: it is along x.
-const DOORWAY_X: Array[float] = [0.0, 3.0]
 ## Where the ball is on its way, besides x.
 const WAY := Vector3(0.0, -0.6, 0.1)
 ## What is captured.

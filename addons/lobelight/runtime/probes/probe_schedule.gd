@@ -3,9 +3,7 @@ extends Object
 ## Captures probes one after the other, a few views in each frame: those that look largest first,
 ## and those that have waited. Nothing is called while there is nothing to capture.
 
-const FrameWait := preload("../light/frame_wait.gd")
 const LightRegistry := preload("../light/light_registry.gd")
-const LightStore := preload("light_store.gd")
 const ProbeCapture := preload("probe_capture.gd")
 const ProbeView := preload("probe_view.gd")
 
