@@ -130,6 +130,7 @@ func _add_meshes(world: Node3D, count: int) -> void:
 	var materials: Array[LobeMaterial3D] = []
 	for i in _MATERIALS:
 		var material := LobeMaterial3D.new()
+		material.metallic = 1.0
 		material.roughness = 0.1 + 0.8 * i / _MATERIALS
 		materials.append(material)
 	for i in count:

@@ -80,6 +80,7 @@ func _measure(scale: int, rounds: int) -> Array[Dictionary]:
 # Eight lobes in every pixel of a frame, of all directions and many levels.
 func _make_sphere() -> MeshInstance3D:
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = (load(TABLES) as LobeTableSet).table_at(ALPHA)
 	var mesh := SphereMesh.new()
 	mesh.radius = 1.0

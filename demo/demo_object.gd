@@ -72,6 +72,7 @@ func get_widths() -> Vector3:
 func set_widths(widths: Vector3) -> void:
 	material.roughness = widths.x
 	material.anisotropy = widths.y
+	material.anisotropy_enabled = true
 	material.anisotropy_rotation = widths.z
 	update_materials()
 

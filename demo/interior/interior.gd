@@ -114,7 +114,9 @@ func _add_object(
 		object.mesh = mesh
 	object.position = at
 	var material := LobeMaterial3D.new()
-	material.albedo = colour
+	material.metallic = 1.0
+	material.roughness = 0.4
+	material.albedo_color = colour
 	object.material_override = material
 	add_child(object)
 	objects.append(object)

@@ -31,13 +31,15 @@ static func make(thesis: bool) -> LobeMaterial3D:
 ## Takes over what the demo's sliders and objects set; [param light] is what it is lit by.
 func follow(source: LobeMaterial3D, light: RivalLight) -> void:
 	_map = light
-	albedo = source.albedo
+	albedo_color = source.albedo_color
 	metallic = source.metallic
-	specular = source.specular
+	metallic_specular = source.metallic_specular
+	clearcoat_enabled = source.clearcoat_enabled
 	clearcoat = source.clearcoat
 	clearcoat_roughness = source.clearcoat_roughness
 	roughness = source.roughness
 	anisotropy_rotation = source.anisotropy_rotation
+	anisotropy_enabled = source.anisotropy_enabled
 	anisotropy = source.anisotropy
 	if is_thesis:
 		_follow_thesis()
@@ -50,7 +52,7 @@ func _follow_thesis() -> void:
 		_tables = DemoTables.thesis_set()
 	if _tables == null or _map == null:
 		return
-	var table := ThesisTable.nearest(_tables, widths_of(roughness, anisotropy))
+	var table := ThesisTable.nearest(_tables, widths_of(roughness, get_shown_anisotropy()))
 	# Where the nearest widths are equal, the table is for a frame along the view.
 	if table.is_isotropic():
 		anisotropy = 0.0
@@ -63,13 +65,15 @@ func _follow_thesis() -> void:
 func _follow_samples() -> void:
 	if _map == null:
 		return
-	var widths := widths_of(roughness, anisotropy)
+	var widths := widths_of(roughness, get_shown_anisotropy())
 	_give(&"fis_environment", _map.cubemap)
 	_give(&"fis_samples", Samples.constants())
 	_give(&"fis_alpha", widths)
 	_give(&"fis_level_scale", Samples.level_scale(widths, _map))
-	var dielectric := 0.16 * specular * specular
-	var f0 := Color(dielectric, dielectric, dielectric).lerp(albedo.srgb_to_linear(), metallic)
+	var dielectric := 0.16 * metallic_specular * metallic_specular
+	var f0 := Color(dielectric, dielectric, dielectric).lerp(
+		albedo_color.srgb_to_linear(), metallic
+	)
 	_give(&"fis_f0", Vector3(f0.r, f0.g, f0.b))
 
 

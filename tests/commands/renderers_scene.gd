@@ -60,7 +60,8 @@ func _materials() -> Array[LobeMaterial3D]:
 	var made: Array[LobeMaterial3D] = []
 	for i in 8:
 		var material := LobeMaterial3D.new()
-		material.albedo = Color.from_hsv(0.11 * i, 0.4, 0.9)
+		material.metallic = 1.0
+		material.albedo_color = Color.from_hsv(0.11 * i, 0.4, 0.9)
 		material.roughness = 0.2 + 0.08 * i
 		made.append(material)
 	made[1].anisotropy = 0.9

@@ -10,6 +10,7 @@ from pathlib import Path
 
 CLASSES = {
     "LobeBaker",
+    "LobeBaseMaterial3D",
     "LobeEnvironment3D",
     "LobeImageFile",
     "LobeLight",

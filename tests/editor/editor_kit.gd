@@ -26,6 +26,14 @@ static func wait_until(tree: SceneTree, condition: Callable, seconds := 20.0) ->
 	return true
 
 
+## Waits for the end of a scan of the project's files, one that is about to begin included.
+static func wait_for_scan(tree: SceneTree) -> bool:
+	for frame in 2:
+		await tree.process_frame
+	var files := EditorInterface.get_resource_filesystem()
+	return await wait_until(tree, func() -> bool: return not files.is_scanning())
+
+
 ## All nodes below one that are made from a script.
 static func find_all(root: Node, script: Script) -> Array[Node]:
 	var found: Array[Node] = []

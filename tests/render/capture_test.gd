@@ -99,6 +99,7 @@ func test_mirrors_in_the_scene_show_the_update_before() -> void:
 	# A mirror behind the camera mirrors the wall that stands behind the sphere.
 	var mirror := _add_wall(Vector3(0.0, 0.0, 3.0), Color.WHITE)
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = LobeTable.make_single_lobe(0.001)
 	mirror.material_override = material
 	_add_wall(Vector3(0.0, 0.0, -3.0), Color.GREEN)
@@ -204,9 +205,10 @@ func _add_lobe_room() -> Array[LobeMaterial3D]:
 	for axis in SkyKit.AXES:
 		var wall := _add_wall(4.0 * axis, Color.WHITE)
 		var material := LobeMaterial3D.new()
-		material.albedo = Color(0.6, 0.6, 0.6)
+		material.roughness = 0.4
+		material.albedo_color = Color(0.6, 0.6, 0.6)
 		material.metallic = 0.0
-		material.cull_mode = LobeMaterial3D.CullMode.DISABLED
+		material.cull_mode = BaseMaterial3D.CULL_DISABLED
 		wall.material_override = material
 		materials.append(material)
 	_environment.size = 16

@@ -35,6 +35,7 @@ func test_anisotropic_sphere(radiance: float, _test_parameters := RADIANCES) -> 
 
 func test_mesh_with_the_material(radiance: float, _test_parameters := RADIANCES) -> void:
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = Kit.make_odd_table(6, Vector2i(7, 4), Vector2(0.05, 0.3))
 	await _check(Kit.make_sphere(material, 128), material.table, radiance)
 

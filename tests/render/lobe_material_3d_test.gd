@@ -26,6 +26,7 @@ func before() -> void:
 	_gradient = Kit.make_panorama(64, _linear)
 	for views: Vector2i in [Vector2i(9, 1), Vector2i(7, 4)]:
 		var material := LobeMaterial3D.new()
+		material.metallic = 1.0
 		material.table = Kit.make_odd_table(6, views, Vector2(0.2, 0.2))
 		_kept.append(material)
 	_kept.append(_smooth_material())
@@ -53,6 +54,7 @@ func test_lobes_are_where_the_table_says(
 	# In a radiance 1 + g·d a lobe gives weight (1 + A g·mean), A = coth kappa - 1/kappa, exactly.
 	var table := Kit.make_odd_table(6, views, alpha)
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = table
 	_view.add_child(Kit.make_sphere(material, 128))
 	_environment.panorama = _gradient
@@ -75,6 +77,7 @@ func test_lobes_are_where_the_table_says(
 func test_perspective_camera() -> void:
 	var table := Kit.make_odd_table(6, Vector2i(7, 4), Vector2(0.1, 0.4))
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = table
 	_view.add_child(Kit.make_sphere(material, 128))
 	_environment.panorama = _gradient
@@ -109,6 +112,7 @@ func test_impostor_and_mesh_agree() -> void:
 	var exact: Image = await _view.capture()
 	impostor.free()
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = table
 	_view.add_child(Kit.make_sphere(material, 256))
 	var drawn: Image = await _view.capture()
@@ -163,11 +167,12 @@ func test_environments_take_turns() -> void:
 
 func test_properties_change_while_running() -> void:
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = LobeTable.make_single_lobe()
 	_view.add_child(Kit.make_sphere(material))
 	_environment.panorama = Kit.constant(1.0)
 	await _environment.rebuild()
-	material.albedo = Color(0.5, 0.5, 0.5)
+	material.albedo_color = Color(0.5, 0.5, 0.5)
 	# sRGB 0.5 is 0.2140411 linear; Fresnel adds nothing towards the viewer.
 	_assert_close(await _middle(), 0.2140411, 0.005, "albedo")
 	var picture := Image.create_empty(4, 4, false, Image.FORMAT_RGB8)
@@ -175,10 +180,11 @@ func test_properties_change_while_running() -> void:
 	material.albedo_texture = ImageTexture.create_from_image(picture)
 	# sRGB 188/255 is 0.5028865 linear.
 	_assert_close(await _middle(), 0.2140411 * 0.5028865, 0.01, "albedo texture")
-	material.albedo = Color.WHITE
+	material.albedo_color = Color.WHITE
 	material.albedo_texture = null
 	material.emission = Color(0.5, 0.5, 0.5)
-	material.emission_energy = 10.0
+	material.emission_enabled = true
+	material.emission_energy_multiplier = 10.0
 	_assert_close(await _middle(), 1.0 + 2.140411, 0.005, "emission")
 	material.emission = Color.BLACK
 	var half := LobeTable.make_single_lobe()
@@ -192,8 +198,9 @@ func test_properties_change_while_running() -> void:
 func test_fresnel_at_each_half_vector() -> void:
 	var table := LobeTable.make_single_lobe(0.05)
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = table
-	material.albedo = Color.BLACK
+	material.albedo_color = Color.BLACK
 	_view.add_child(Kit.make_sphere(material, 128))
 	_environment.panorama = Kit.constant(1.0)
 	await _environment.rebuild()
@@ -214,6 +221,7 @@ func test_anisotropy_rotation() -> void:
 	_environment.panorama = _gradient
 	await _environment.rebuild()
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = table
 	_view.add_child(Kit.make_sphere(material))
 	var plain: Image = await _view.capture()
@@ -230,6 +238,7 @@ func test_normal_map_turns_the_normal() -> void:
 	_environment.panorama = _gradient
 	await _environment.rebuild()
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = LobeTable.make_single_lobe(0.05)
 	var quad := QuadMesh.new()
 	quad.size = Vector2(2.0, 2.0)
@@ -241,6 +250,7 @@ func test_normal_map_turns_the_normal() -> void:
 	# The tangent of a quad is +x and its bitangent +y.
 	picture.fill(Color8(191, 128, 255))
 	material.normal_texture = ImageTexture.create_from_image(picture)
+	material.normal_enabled = true
 	var tilt := 191.0 / 255.0 * 2.0 - 1.0
 	var rise := 128.0 / 255.0 * 2.0 - 1.0
 	var normal := Vector3(tilt, rise, sqrt(1.0 - tilt * tilt - rise * rise))
@@ -257,8 +267,10 @@ func test_poor_meshes_stay_finite() -> void:
 	for isotropic: bool in [true, false]:
 		var views := Vector2i(7, 1) if isotropic else Vector2i(7, 4)
 		var material := LobeMaterial3D.new()
+		material.metallic = 1.0
 		material.table = Kit.make_odd_table(6, views, Vector2(0.3, 0.3))
 		material.normal_texture = _flat_normals()
+		material.normal_enabled = true
 		for kind in 5:
 			var instance := _poor_mesh(kind, material)
 			_view.add_child(instance)
@@ -273,6 +285,7 @@ func test_poor_meshes_stay_finite() -> void:
 func test_mirrored_mesh() -> void:
 	# A sphere mirrored in x looks like the sphere in an environment mirrored in x, mirrored.
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = Kit.make_odd_table(6, Vector2i(7, 4), Vector2(0.1, 0.4))
 	var instance := Kit.make_sphere(material)
 	_view.add_child(instance)
@@ -294,7 +307,7 @@ func test_engine_lights_add() -> void:
 	_environment.panorama = Kit.constant(0.25)
 	await _environment.rebuild()
 	var material := _smooth_material()
-	material.albedo = Color(0.8, 0.8, 0.8)
+	material.albedo_color = Color(0.8, 0.8, 0.8)
 	_view.add_child(Kit.make_sphere(material))
 	var without := await _middle()
 	var light := DirectionalLight3D.new()
@@ -318,6 +331,7 @@ func test_materials_may_be_made_on_threads() -> void:
 # A table of one lobe, whose shader is quickly compiled.
 func _smooth_material() -> LobeMaterial3D:
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = LobeTable.make_single_lobe()
 	return material
 
@@ -393,7 +407,10 @@ func _make_on_threads() -> Array:
 		var materials := []
 		for i in 50:
 			var material := LobeMaterial3D.new()
+			material.metallic = 1.0
+			material.roughness = 0.4
 			material.emission = Color(0.01 * i, 0.0, 0.0)
+			material.emission_enabled = true
 			materials.append(material)
 		return materials
 	var threads: Array[Thread] = []

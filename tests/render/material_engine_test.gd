@@ -151,6 +151,7 @@ func test_lightmaps_take_no_reflections_for_lamps() -> void:
 	var emission := await _baked_emission(material)
 	assert_float(emission).is_equal(0.0)
 	material.emission = Color(0.5, 0.5, 0.5)
+	material.emission_enabled = true
 	emission = await _baked_emission(material)
 	assert_float(emission).is_equal_approx(0.2140411, 0.002)
 
@@ -160,6 +161,7 @@ func test_two_viewports_with_cameras_of_their_own() -> void:
 	var material := _material()
 	material.roughness = 0.3
 	material.anisotropy = 0.7
+	material.anisotropy_enabled = true
 	_view.add_child(Kit.make_sphere(material))
 	var expected: Image = await _view.capture()
 	var other := LinearViewport.new(32)
@@ -178,6 +180,7 @@ func test_kinds_of_meshes() -> void:
 	var material := _material()
 	material.roughness = 0.4
 	material.anisotropy = 0.9
+	material.anisotropy_enabled = true
 	var turn := Basis(Vector3(0.2, 0.9, 0.1).normalized(), 0.7)
 	var sphere := Kit.make_sphere(material)
 	sphere.basis = turn
@@ -213,7 +216,7 @@ func test_kinds_of_meshes() -> void:
 func test_uneven_scale() -> void:
 	await _light(Kit.make_panorama(64, Oracle.light))
 	var material := _material()
-	material.albedo = Color.WHITE
+	material.albedo_color = Color.WHITE
 	var sphere := Kit.make_sphere(material, 128)
 	sphere.scale = Vector3(1.0, 0.6, 2.0)
 	_view.add_child(sphere)
@@ -238,6 +241,8 @@ func _mesh_of(arrays: Array, material: Material) -> ArrayMesh:
 
 func _material() -> LobeMaterial3D:
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
+	material.roughness = 0.4
 	material.table_set = _tables
 	return material
 

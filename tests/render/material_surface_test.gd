@@ -25,7 +25,7 @@ func after_test() -> void:
 
 func test_white_surfaces_send_all_light_back() -> void:
 	var material := _material()
-	material.albedo = Color.WHITE
+	material.albedo_color = Color.WHITE
 	_view.add_child(Kit.make_sphere(material, 128))
 	await _light(Kit.constant(1.0))
 	for metallic: float in [1.0, 0.0, 0.5]:
@@ -41,17 +41,18 @@ func test_white_surfaces_send_all_light_back() -> void:
 
 func test_a_coat_takes_what_it_reflects() -> void:
 	var material := _material()
-	material.albedo = Color.WHITE
+	material.albedo_color = Color.WHITE
 	material.clearcoat = 1.0
+	material.clearcoat_enabled = true
 	material.clearcoat_roughness = 1.0
 	_view.add_child(Kit.make_sphere(material, 128))
 	await _light(Kit.constant(1.0))
 	# What the coat reflects, 0.04 + 0.96 x, the metal below loses; the test's tables have an albedo
 	# below 1.
 	_assert_range(await _view.capture(), 0.995, 1.005, "white metal")
-	material.albedo = Color.BLACK
+	material.albedo_color = Color.BLACK
 	material.metallic = 0.0
-	material.specular = 0.0
+	material.metallic_specular = 0.0
 	var image: Image = await _view.capture()
 	var table := _tables.table_at(Vector2(0.1, 0.1))
 	for x: int in [24, 34, 42]:
@@ -65,13 +66,13 @@ func test_a_coat_takes_what_it_reflects() -> void:
 
 func test_dielectrics_reflect_as_specular_says() -> void:
 	var material := _material()
-	material.albedo = Color.BLACK
+	material.albedo_color = Color.BLACK
 	material.metallic = 0.0
 	_view.add_child(Kit.make_sphere(material, 128))
 	await _light(Kit.make_panorama(64, Oracle.light))
 	# Godot: 0.16 specular², and nothing at all, at any angle, for 0.
 	for specular: float in [0.5, 1.0, 0.0]:
-		material.specular = specular
+		material.metallic_specular = specular
 		var image: Image = await _view.capture()
 		var f0 := 0.16 * specular * specular
 		var f90 := clampf(50.0 * f0, 0.0, 1.0)
@@ -87,7 +88,7 @@ func test_diffuse_light_is_the_cosines() -> void:
 	# 2001, eq. 8).
 	var material := _material()
 	material.metallic = 0.0
-	material.specular = 0.0
+	material.metallic_specular = 0.0
 	_view.add_child(Kit.make_sphere(material, 128))
 	await _light(Kit.make_panorama(128, Oracle.light))
 	var linear: Image = await _view.capture()
@@ -111,7 +112,7 @@ func test_diffuse_light_shows_no_star() -> void:
 	# the axis. What turns with the frame about the normal shows there.
 	var material := _material()
 	material.metallic = 0.0
-	material.specular = 0.0
+	material.metallic_specular = 0.0
 	_view.add_child(Kit.make_sphere(material, 128))
 	var sectors := func(d: Vector3) -> Color:
 		var sine := Vector2(d.x, d.y).length()
@@ -127,12 +128,13 @@ func test_diffuse_light_shows_no_star() -> void:
 
 func test_occlusion() -> void:
 	var material := _material()
-	material.albedo = Color.WHITE
+	material.albedo_color = Color.WHITE
 	var quad := SphereImpostor.make_quad(material)
 	_view.add_child(quad)
 	await _light(Kit.constant(1.0))
 	material.ao_texture = _plain(Color(0.0, 0.6, 0.0))
-	material.ao_texture_channel = LobeMaterial3D.TextureChannel.GREEN
+	material.ao_enabled = true
+	material.ao_texture_channel = BaseMaterial3D.TEXTURE_CHANNEL_GREEN
 	# Lagarde and de Rousiers 2014, listing 26, at normal incidence.
 	var kept := pow(1.0 + 0.6, pow(2.0, -16.0 * material.roughness - 1.0)) - 1.0 + 0.6
 	_assert_close(await _middle(), kept, 0.01, "metal")
@@ -149,14 +151,15 @@ func test_orm_and_its_parts_agree() -> void:
 	var quad := SphereImpostor.make_quad(material)
 	_view.add_child(quad)
 	await _light(Kit.make_panorama(64, Oracle.light))
+	material.ao_enabled = true
 	material.orm_texture = _plain(Color(0.7, 0.5, 0.3))
 	var together := await _middle()
 	material.orm_texture = null
 	material.ao_texture = _plain(Color(0.7, 0.0, 0.0))
 	material.roughness_texture = _plain(Color(0.5, 0.5, 0.5))
-	material.roughness_texture_channel = LobeMaterial3D.TextureChannel.GRAYSCALE
+	material.roughness_texture_channel = BaseMaterial3D.TEXTURE_CHANNEL_GRAYSCALE
 	material.metallic_texture = _plain(Color(0.0, 0.0, 0.0, 0.3))
-	material.metallic_texture_channel = LobeMaterial3D.TextureChannel.ALPHA
+	material.metallic_texture_channel = BaseMaterial3D.TEXTURE_CHANNEL_ALPHA
 	_assert_close(await _middle(), together, 0.004, "parts")
 	# And they do something.
 	material.ao_texture = null
@@ -165,9 +168,10 @@ func test_orm_and_its_parts_agree() -> void:
 
 func test_emission_texture() -> void:
 	var material := _material()
-	material.albedo = Color.BLACK
+	material.albedo_color = Color.BLACK
 	material.emission = Color(0.5, 0.5, 0.5)
-	material.emission_energy = 2.0
+	material.emission_enabled = true
+	material.emission_energy_multiplier = 2.0
 	# sRGB 188/255 is 0.5028865 linear, 0.5 is 0.2140411.
 	var bytes := Image.create_empty(4, 4, false, Image.FORMAT_RGB8)
 	bytes.fill(Color8(188, 188, 188))
@@ -175,7 +179,7 @@ func test_emission_texture() -> void:
 	_view.add_child(SphereImpostor.make_quad(material))
 	await _light(Kit.constant(0.0))
 	_assert_close(await _middle(), 2.0 * (0.2140411 + 0.5028865), 0.01, "added")
-	material.emission_operator = LobeMaterial3D.EmissionOperator.MULTIPLY
+	material.emission_operator = BaseMaterial3D.EMISSION_OP_MULTIPLY
 	_assert_close(await _middle(), 2.0 * 0.2140411 * 0.5028865, 0.01, "multiplied")
 
 
@@ -190,31 +194,31 @@ func test_texture_coordinates_are_scaled_and_moved() -> void:
 	var plain: Image = await _view.capture()
 	assert_float(plain.get_pixel(36, 36).g).is_greater(0.3)
 	assert_float(plain.get_pixel(12, 12).g).is_less(0.01)
-	material.uv1_offset = Vector2(0.5, 0.5)
+	material.uv1_offset = Vector3(0.5, 0.5, 0.0)
 	assert_float((await _view.capture() as Image).get_pixel(12, 12).g).is_greater(0.3)
-	material.uv1_offset = Vector2.ZERO
-	material.uv1_scale = Vector2(2.0, 2.0)
+	material.uv1_offset = Vector3.ZERO
+	material.uv1_scale = Vector3(2.0, 2.0, 1.0)
 	assert_float((await _view.capture() as Image).get_pixel(18, 18).g).is_greater(0.3)
 
 
 func test_transparency() -> void:
 	var material := _material()
-	material.albedo = Color(1.0, 1.0, 1.0, 0.25)
+	material.albedo_color = Color(1.0, 1.0, 1.0, 0.25)
 	_view.add_child(SphereImpostor.make_quad(material))
 	await _light(Kit.constant(1.0))
 	var opaque := await _middle()
-	material.transparency = LobeMaterial3D.Transparency.ALPHA
+	material.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA
 	var image: Image = await _view.capture()
 	# Compatibility blends sRGB values.
 	var expected := 0.25 * opaque
 	if LinearViewport.is_compatibility():
 		expected = Color(0.25, 0.25, 0.25).srgb_to_linear().r * opaque
 	_assert_close(image.get_pixel(MIDDLE, MIDDLE).r, expected, 0.03, "alpha")
-	material.transparency = LobeMaterial3D.Transparency.ALPHA_SCISSOR
+	material.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR
 	assert_float(await _middle()).is_equal(0.0)
 	material.alpha_scissor_threshold = 0.2
 	_assert_close(await _middle(), opaque, 0.01, "scissor")
-	material.transparency = LobeMaterial3D.Transparency.ALPHA_HASH
+	material.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA_HASH
 	image = await _view.capture()
 	if LinearViewport.is_compatibility():
 		# It has no alpha hash, and blends.
@@ -237,9 +241,9 @@ func test_back_faces() -> void:
 	quad.basis *= Basis(Vector3.UP, PI)
 	assert_float(await _middle()).is_equal(0.0)
 	# Lit as a front face of the other side.
-	material.cull_mode = LobeMaterial3D.CullMode.DISABLED
+	material.cull_mode = BaseMaterial3D.CULL_DISABLED
 	_assert_close(await _middle(), front, 0.005, "back")
-	material.cull_mode = LobeMaterial3D.CullMode.FRONT
+	material.cull_mode = BaseMaterial3D.CULL_FRONT
 	assert_float(await _middle()).is_greater(0.0)
 	quad.basis *= Basis(Vector3.UP, PI)
 	assert_float(await _middle()).is_equal(0.0)
@@ -247,6 +251,8 @@ func test_back_faces() -> void:
 
 func _material() -> LobeMaterial3D:
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
+	material.roughness = 0.4
 	material.table_set = _tables
 	return material
 

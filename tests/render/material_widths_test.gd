@@ -31,6 +31,7 @@ func test_sliders_choose_the_widths() -> void:
 	for pair: Array in [[0.3, 0.0], [0.5, 0.7], [0.4, 1.1], [0.4, -0.8], [0.0, 0.0], [1.0, 1.0]]:
 		material.roughness = pair[0]
 		material.anisotropy = pair[1]
+		material.anisotropy_enabled = true
 		var table := _tables.table_at(_clamped(LobeMaterial3D.widths_of(pair[0], pair[1])))
 		await _check_sphere(table, str(pair))
 
@@ -39,6 +40,7 @@ func test_negative_anisotropy_turns_as_well() -> void:
 	var material := _material()
 	material.roughness = 0.5
 	material.anisotropy = -0.8
+	material.anisotropy_enabled = true
 	_view.add_child(Kit.make_sphere(material))
 	var plain: Image = await _view.capture()
 	material.anisotropy_rotation = PI
@@ -48,6 +50,7 @@ func test_negative_anisotropy_turns_as_well() -> void:
 	assert_float(Kit.psnr(turned, plain)).is_less(45.0)
 	# The widths of -0.8 exchanged.
 	material.anisotropy = 0.8 / (1.0 + 0.9 * 0.8)
+	material.anisotropy_enabled = true
 	material.anisotropy_rotation = 0.0
 	material.roughness = 0.5
 	var exchanged: Image = await _view.capture()
@@ -107,7 +110,9 @@ func test_orm_has_the_roughness_in_green() -> void:
 
 func test_default_set_without_any_setup() -> void:
 	var material := LobeMaterial3D.new()
-	material.albedo = Color(0.8, 0.8, 0.8)
+	material.metallic = 1.0
+	material.roughness = 0.4
+	material.albedo_color = Color(0.8, 0.8, 0.8)
 	_view.add_child(Kit.make_sphere(material, 128))
 	var table := (load("res://addons/lobelight/tables/ggx_8.res") as LobeTableSet).table_at(
 		LobeMaterial3D.widths_of(material.roughness, 0.0)
@@ -117,8 +122,10 @@ func test_default_set_without_any_setup() -> void:
 
 func _material() -> LobeMaterial3D:
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
+	material.roughness = 0.4
 	material.table_set = _tables
-	material.albedo = Color(0.8, 0.8, 0.8)
+	material.albedo_color = Color(0.8, 0.8, 0.8)
 	return material
 
 
@@ -145,6 +152,7 @@ func _check_gradient(anisotropy: float, rotation: float) -> void:
 	material.roughness_texture = _texture(func(u: float, _v: float) -> Color: return Color(u, 0, 0))
 	material.roughness = 1.0
 	material.anisotropy = anisotropy
+	material.anisotropy_enabled = true
 	material.anisotropy_rotation = rotation
 	material.texture_filter = BaseMaterial3D.TEXTURE_FILTER_LINEAR
 	material.texture_repeat = false

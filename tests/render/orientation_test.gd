@@ -48,6 +48,7 @@ func before_test() -> void:
 	_environment.panorama = _panorama
 	_view.add_child(_environment)
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = LobeTable.make_single_lobe(0.01)
 	_view.add_child(Kit.make_sphere(material))
 

@@ -134,7 +134,7 @@ func test_reflections_lie_where_the_walls_are() -> void:
 func test_materials_with_holes_are_drawn() -> void:
 	# Mesa's drivers have crashed in loops where a `discard` comes before.
 	var material := _metal(8, Vector2(0.1, 0.3))
-	material.transparency = LobeMaterial3D.Transparency.ALPHA_SCISSOR
+	material.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR
 	material.alpha_scissor_threshold = 0.5
 	var holes := Image.create_empty(4, 4, false, Image.FORMAT_RGBA8)
 	holes.fill(Color.WHITE)
@@ -171,6 +171,7 @@ func _materials() -> Array[LobeMaterial3D]:
 	plastic.metallic = 0.2
 	plastic.roughness = 0.5
 	plastic.clearcoat = 0.8
+	plastic.clearcoat_enabled = true
 	plastic.clearcoat_roughness = 0.2
 	return [
 		_metal(1, Vector2(0.2, 0.2)),
@@ -182,6 +183,7 @@ func _materials() -> Array[LobeMaterial3D]:
 
 func _metal(lobes: int, alpha: Vector2, sharpness := 5.0) -> LobeMaterial3D:
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.resource_name = "%d lobes" % lobes
 	var views := Vector2i(2, 1 if alpha.x == alpha.y else 2)
 	if lobes > 1:

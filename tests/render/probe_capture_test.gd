@@ -98,6 +98,7 @@ func _settle() -> void:
 	var material := _material_of(_walls[0])
 	var before := material.emission
 	material.emission = Color.WHITE
+	material.emission_enabled = true
 	var probe := _add_probe()
 	for i in 500:
 		await probe.rebuild()
@@ -105,6 +106,7 @@ func _settle() -> void:
 			break
 	probe.free()
 	material.emission = before
+	material.emission_enabled = true
 	for i in 6:
 		await RenderingServer.frame_post_draw
 
@@ -134,9 +136,10 @@ func _material_of(wall: MeshInstance3D) -> LobeMaterial3D:
 
 func _add_wall(axis: Vector3) -> MeshInstance3D:
 	var material := LobeMaterial3D.new()
-	material.albedo = Color(ALBEDO, ALBEDO, ALBEDO)
+	material.roughness = 0.4
+	material.albedo_color = Color(ALBEDO, ALBEDO, ALBEDO)
 	material.metallic = 0.0
-	material.cull_mode = LobeMaterial3D.CullMode.DISABLED
+	material.cull_mode = BaseMaterial3D.CULL_DISABLED
 	var mesh := QuadMesh.new()
 	mesh.size = 2.0 * WALL * Vector2.ONE
 	mesh.material = material

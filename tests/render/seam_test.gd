@@ -41,6 +41,7 @@ static func _linear(direction: Vector3) -> Color:
 func before_test() -> void:
 	_view = LinearViewport.new(SIDE)
 	add_child(_view)
+	_material.metallic = 1.0
 	_view.add_child(Kit.make_sphere(_material, 96))
 	_environment = LobeEnvironment3D.new()
 	_environment.size = SIZE

@@ -28,11 +28,12 @@ var _material := LobeMaterial3D.new()
 
 func before_test() -> void:
 	# A metal that reflects all the light it takes.
-	_material.albedo = Color.WHITE
+	_material.metallic = 1.0
+	_material.albedo_color = Color.WHITE
 	_material.roughness = 1.0
 	_material.texture_filter = BaseMaterial3D.TEXTURE_FILTER_LINEAR
 	# The visible side of a sphere mesh has u from -1/4 to 1/4.
-	_material.uv1_offset = Vector2(0.25, 0.0)
+	_material.uv1_offset = Vector3(0.25, 0.0, 0.0)
 
 
 func after_test() -> void:
@@ -98,6 +99,7 @@ func _draw(side: int, anisotropy: float, panorama: Texture2D) -> Image:
 	_view.add_child(environment)
 	await environment.rebuild()
 	_material.anisotropy = anisotropy
+	_material.anisotropy_enabled = true
 	var texture := Image.create_empty(512, 1, false, Image.FORMAT_RGBAF)
 	for x in 512:
 		var share := minf((x + 0.5) / 256.0, 1.0)

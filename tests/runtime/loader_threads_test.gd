@@ -89,7 +89,7 @@ func test_nobody_waits_while_the_ready_set_is_loaded() -> void:
 	TableChoice._default_set = null
 	var watch := Watch.new(TableChoice.DEFAULT_SET, LobeTableSet.new(), TableChoice._mutex)
 	ResourceLoader.add_resource_format_loader(watch, true)
-	var found := TableChoice.get_set(LobeMaterial3D.new()._get_inputs())
+	var found := TableChoice.get_set(LobeMaterial3D.new())
 	ResourceLoader.remove_resource_format_loader(watch)
 	TableChoice._default_set = before
 	if cached != null:

@@ -169,10 +169,13 @@ func test_3d_textures_of_too_many_layers_are_refused() -> void:
 		assert_str(WidthsTexture.find_problem(tables.widths, true)).is_empty()
 		var problem := WidthsTexture.find_problem(tables.widths, false)
 		var material := LobeMaterial3D.new()
+		material.metallic = 1.0
+		material.roughness = 0.4
 		material.table_set = tables
 		material.roughness_texture = ImageTexture.new()
 		for anisotropy: float in [0.0, 0.5]:
 			material.anisotropy = anisotropy
+			material.anisotropy_enabled = true
 			var per_pixel := "WIDTHS_PER_PIXEL" in material.get_shader_code()
 			assert_bool(per_pixel).is_equal(anisotropy == 0.0 or count == 22)
 		if count == 22:

@@ -2,8 +2,6 @@ extends GdUnitTestSuite
 ## Conversion between Godot's materials and LobeMaterial3D.
 
 const ConversionPlugin := preload("res://addons/lobelight/editor/material_conversion_plugin.gd")
-const CONVERSION := "res://addons/lobelight/runtime/conversion/material_conversion.gd"
-const MaterialConversion := preload(CONVERSION)
 const SceneMenu := preload("res://addons/lobelight/editor/scene_conversion_menu.gd")
 
 
@@ -74,9 +72,9 @@ func test_defaults() -> void:
 	var made := LobeMaterial3D.from_standard(source)
 	assert_float(made.metallic).is_equal(0.0)
 	assert_float(made.roughness).is_equal(1.0)
-	assert_float(made.clearcoat).is_equal(0.0)
+	assert_bool(made.is_coated()).is_false()
 	assert_object(made.normal_texture).is_null()
-	_assert_same(source, made.to_standard(), ["clearcoat", "clearcoat_roughness"])
+	_assert_same(source, made.to_standard())
 
 
 func test_features_that_are_off_stay_off() -> void:
@@ -90,12 +88,12 @@ func test_features_that_are_off_stay_off() -> void:
 	]:
 		source.set(feature, false)
 	var made := LobeMaterial3D.from_standard(source)
-	assert_float(made.anisotropy).is_equal(0.0)
-	assert_float(made.clearcoat).is_equal(0.0)
-	assert_object(made.ao_texture).is_null()
-	assert_object(made.normal_texture).is_null()
-	assert_object(made.emission_texture).is_null()
-	assert_that(made.emission).is_equal(Color.BLACK)
+	assert_float(made.get_shown_anisotropy()).is_equal(0.0)
+	assert_bool(made.is_coated()).is_false()
+	assert_bool(made.is_occluded()).is_false()
+	assert_bool(made.has_normal_map()).is_false()
+	assert_bool(made.emits()).is_false()
+	_assert_same(source, made.to_standard())
 
 
 func test_orm() -> void:
@@ -116,11 +114,8 @@ func test_orm() -> void:
 	# Without occlusion, the texture's red is not to be read.
 	source.ao_enabled = false
 	made = LobeMaterial3D.from_standard(source)
-	assert_object(made.orm_texture).is_null()
-	assert_object(made.ao_texture).is_null()
-	assert_object(made.roughness_texture).is_same(source.orm_texture)
-	assert_int(made.roughness_texture_channel).is_equal(LobeMaterial3D.TextureChannel.GREEN)
-	assert_int(made.metallic_texture_channel).is_equal(LobeMaterial3D.TextureChannel.BLUE)
+	assert_object(made.orm_texture).is_same(source.orm_texture)
+	assert_bool(made.is_occluded()).is_false()
 	# With factors, an ORMMaterial3D would forget them.
 	made.orm_texture = source.orm_texture
 	made.roughness = 0.5
@@ -138,17 +133,16 @@ func test_losses_are_named() -> void:
 	source.rim_enabled = true
 	source.uv1_triplanar = true
 	source.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
+	# Nobody sees it: refraction is off.
+	source.refraction_scale = 0.7
 	assert_array(LobeMaterial3D.get_losses_from(source)).contains_exactly_in_any_order(
 		["rim_enabled", "uv1_triplanar", "shading_mode"]
 	)
-	# The names are those of properties.
-	for name: StringName in MaterialConversion._LOST:
-		assert_bool(name in source).append_failure_message(name).is_true()
-		assert_that(StandardMaterial3D.new().get(name)).is_equal(MaterialConversion._LOST[name])
 
 
 func test_an_angle_becomes_a_flow_map() -> void:
 	var made := LobeMaterial3D.new()
+	made.anisotropy_enabled = true
 	made.anisotropy = 0.5
 	made.anisotropy_rotation = 0.7
 	var texel := made.to_standard().anisotropy_flowmap.get_image().get_pixel(1, 1)

@@ -8,6 +8,8 @@ func test_meshes_that_lack_tangents_are_found() -> void:
 	var instance: MeshInstance3D = auto_free(MeshInstance3D.new())
 	assert_array(TangentWarning.find_surfaces(instance)).is_empty()
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
+	material.roughness = 0.4
 	# Surface 0 has tangents, surface 1 has none.
 	var mesh := ArrayMesh.new()
 	var arrays := SphereMesh.new().get_mesh_arrays()
@@ -18,10 +20,12 @@ func test_meshes_that_lack_tangents_are_found() -> void:
 	instance.material_override = material
 	assert_array(TangentWarning.find_surfaces(instance)).is_empty()
 	material.anisotropy = 0.5
+	material.anisotropy_enabled = true
 	assert_array(TangentWarning.find_surfaces(instance)).is_equal(PackedInt32Array([1]))
 	assert_str(TangentWarning.get_text([1])).contains("no tangents on surface 1")
 	material.anisotropy = 0.0
 	material.normal_texture = PlaceholderTexture2D.new()
+	material.normal_enabled = true
 	assert_array(TangentWarning.find_surfaces(instance)).is_equal(PackedInt32Array([1]))
 	instance.material_override = StandardMaterial3D.new()
 	assert_array(TangentWarning.find_surfaces(instance)).is_empty()

@@ -65,6 +65,8 @@ func _make_material(variant: Dictionary) -> Material:
 			material = StandardMaterial3D.new()
 		"lobes":
 			material = LobeMaterial3D.new()
+			material.set(&"metallic", 1.0)
+			material.set(&"roughness", 0.4)
 			# Without a table, the material takes those of the ready set.
 			if variant.has("lobes"):
 				material.set(&"table", _make_table(variant))

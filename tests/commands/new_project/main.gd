@@ -11,7 +11,9 @@ func _ready() -> void:
 	add_child(LobeEnvironment3D.new())
 	_add_ball(-0.6, LobeMaterial3D.new())
 	var brushed := LobeMaterial3D.new()
+	brushed.metallic = 1.0
 	brushed.anisotropy = 0.9
+	brushed.anisotropy_enabled = true
 	if ResourceLoader.exists("res://brushed.res"):
 		brushed.table = load("res://brushed.res")
 	_add_ball(0.6, brushed)

@@ -25,10 +25,7 @@ var _shade := 0.0
 func before_test() -> void:
 	DirAccess.make_dir_absolute(FOLDER)
 	EditorInterface.get_resource_filesystem().scan()
-	await Kit.wait_until(
-		get_tree(),
-		func() -> bool: return not EditorInterface.get_resource_filesystem().is_scanning()
-	)
+	await Kit.wait_for_scan(get_tree())
 	_bakes = Kit.get_plugin(get_tree()).get_light_bakes()
 	_bakes.capture = _capture
 	_bakes.failed.connect(_on_failed)
@@ -42,6 +39,8 @@ func after_test() -> void:
 	_bakes.failed.disconnect(_on_failed)
 	EditorInterface.close_scene()
 	await await_idle_frame()
+	# A scan under way reads the scenes that are to go.
+	await Kit.wait_for_scan(get_tree())
 	for file in DirAccess.get_files_at(FOLDER):
 		DirAccess.remove_absolute(FOLDER.path_join(file))
 	for folder in DirAccess.get_directories_at(FOLDER):

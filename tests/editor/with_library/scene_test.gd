@@ -21,6 +21,7 @@ func _make_scene() -> Node3D:
 	var sphere := MeshInstance3D.new()
 	sphere.mesh = SphereMesh.new()
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.resource_name = "steel"
 	material.table = LobeTable.new()
 	sphere.material_override = material
@@ -109,8 +110,11 @@ func test_skies_that_change_unseen_are_told_so() -> void:
 
 func test_sets_that_textures_cannot_use_are_told_so() -> void:
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
+	material.roughness = 0.4
 	material.roughness_texture = ImageTexture.new()
 	material.anisotropy = 0.5
+	material.anisotropy_enabled = true
 	assert_array(SceneWarnings.of_material(material, null)).is_empty()
 	var tables := LobeTableSet.new()
 	tables.lobe_count = 1
@@ -192,6 +196,7 @@ func test_the_scene_tree_warns_and_follows_the_sky() -> void:
 func test_warnings_are_in_the_inspector() -> void:
 	Kit.get_plugin(get_tree())
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = LobeTable.new()
 	EditorInterface.inspect_object(material)
 	await await_idle_frame()
@@ -216,6 +221,7 @@ func test_a_mesh_without_tangents_is_told_so_in_the_theme_s_colour() -> void:
 	var material: LobeMaterial3D = sphere.material_override
 	material.table = null
 	material.anisotropy = 0.5
+	material.anisotropy_enabled = true
 	EditorInterface.inspect_object(sphere)
 	await await_idle_frame()
 	await await_idle_frame()

@@ -12,6 +12,8 @@ func _initialize() -> void:
 func _run() -> void:
 	await process_frame
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
+	material.roughness = 0.4
 	for i in 2:
 		_add_world(i, material)
 	for i in FRAMES:

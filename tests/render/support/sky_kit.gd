@@ -67,6 +67,7 @@ static func make_sun() -> DirectionalLight3D:
 
 static func make_mirror() -> MeshInstance3D:
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = LobeTable.make_single_lobe(0.001)
 	return Kit.make_sphere(material, 96)
 

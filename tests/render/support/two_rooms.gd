@@ -67,7 +67,8 @@ static func add_lights(parent: Node3D, blend_distance := 1.0) -> Array[LobeProbe
 ## The ball with a material that reflects all, GGX of a width.
 static func add_ball(parent: Node3D, alpha: float) -> MeshInstance3D:
 	var material := LobeMaterial3D.new()
-	material.albedo = Color.WHITE
+	material.metallic = 1.0
+	material.albedo_color = Color.WHITE
 	material.roughness = sqrt(alpha)
 	return _add(parent, _make_ball(), WAY, material, BALL_LAYER)
 

@@ -8,9 +8,12 @@ const UPDATES := 1500
 
 func _process(_delta: float) -> bool:
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.roughness = 0.3
 	material.anisotropy = 0.6
+	material.anisotropy_enabled = true
 	material.clearcoat = 1.0
+	material.clearcoat_enabled = true
 	var threads: Array[Thread] = []
 	for i in THREADS:
 		var thread := Thread.new()

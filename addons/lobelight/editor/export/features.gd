@@ -88,9 +88,9 @@ func look_at_renderers() -> void:
 
 
 func look_at_material(file: String, material: LobeMaterial3D) -> void:
-	if material.clearcoat > 0.0:
+	if material.is_coated():
 		add(COAT, file)
-	if material._get_inputs().is_dielectric():
+	if material.is_dielectric():
 		add(DIFFUSE, file)
 
 

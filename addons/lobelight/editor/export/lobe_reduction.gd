@@ -174,7 +174,7 @@ static func _can_edit(file: String) -> bool:
 static func _get_set(material: LobeMaterial3D) -> LobeTableSet:
 	if material.get_script() != LobeMaterial3D or material.table != null:
 		return null
-	if material.clearcoat > 0.0 or material._get_inputs().varies():
+	if material.is_coated() or material.varies():
 		return null
 	var found := material.table_set
 	if found == null and ResourceLoader.exists(TableChoice.DEFAULT_SET):
@@ -186,7 +186,7 @@ static func _get_set(material: LobeMaterial3D) -> LobeTableSet:
 
 ## The table that a material draws, wide widths first.
 static func get_table(tables_of: LobeTableSet, material: LobeMaterial3D) -> LobeTable:
-	var widths := Widths.from_roughness(material.roughness, material.anisotropy)
+	var widths := Widths.from_roughness(material.roughness, material.get_shown_anisotropy())
 	# Tables of exchanged widths are the same seen from the other axis.
 	return tables_of.shared_table_at(Vector2(maxf(widths.x, widths.y), minf(widths.x, widths.y)))
 

@@ -159,6 +159,8 @@ func _read_script(file: String, text: String) -> void:
 		if _dynamic.search(code) != null or _other_widths.search(code) != null:
 			features.add_all(file)
 		var assigned := _assignment.search(code)
+		if "clearcoat_enabled" in code:
+			_add_number("clearcoat", 1.0)
 		if assigned != null:
 			_add_number(assigned.get_string(1), assigned.get_string(2).to_float())
 		elif _mention.search(code) != null or _dynamic.search(code) != null:
@@ -215,7 +217,7 @@ func _get_set(path: String) -> SetReach:
 
 
 func _include(file: String, material: LobeMaterial3D) -> void:
-	var coats := _all_of("clearcoat", material.clearcoat)
+	var coats := _all_of("clearcoat", material.clearcoat if material.clearcoat_enabled else 0.0)
 	var has_coat: bool = coats.any(func(coat: float) -> bool: return coat > 0.0)
 	if material.table != null:
 		own_tables.append([file, material.table])
@@ -228,7 +230,7 @@ func _include(file: String, material: LobeMaterial3D) -> void:
 	reach.add_user(file)
 	if material.table == null:
 		var anisotropies := _all_of("anisotropy", material.anisotropy)
-		if material._get_inputs().varies():
+		if material.varies():
 			if anisotropies.max() == 0.0 and anisotropies.min() == 0.0:
 				reach.isotropic_because = "%s has a texture of widths" % file
 			else:

@@ -15,8 +15,10 @@ func _init() -> void:
 	for look in SPHERES:
 		var sphere := SphereView.new()
 		var material := LobeMaterial3D.new()
+		material.metallic = 1.0
 		material.roughness = look.x
 		material.anisotropy = look.y
+		material.anisotropy_enabled = true
 		sphere.material_3d = material
 		sphere.least_size = Vector2(_SIDE, _SIDE)
 		sphere.mouse_filter = Control.MOUSE_FILTER_PASS

@@ -74,6 +74,7 @@ func show_table(table: LobeTable, brdf: String) -> void:
 	_picture.texture = null
 	_status.text = ""
 	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
 	material.table = table
 	_sphere.material_3d = material
 	if _light != null:

@@ -53,9 +53,9 @@ static func _of_properties(material: LobeMaterial3D) -> PackedStringArray:
 		warnings.append("The material's table has no lobes yet: open it and press Bake.")
 	if material.table_set != null and not material.table_set.get_problem().is_empty():
 		warnings.append("The material's set of tables cannot be used: choose one of the addon's.")
-	elif material.table == null and material._get_inputs().varies():
-		var tables := TableChoice.get_set(material._get_inputs())
-		var is_isotropic := material.anisotropy == 0.0
+	elif material.table == null and material.varies():
+		var tables := TableChoice.get_set(material)
+		var is_isotropic := material.get_shown_anisotropy() == 0.0
 		var problem := ""
 		if tables != null:
 			problem = WidthsTexture.find_problem(tables.widths, is_isotropic)
@@ -63,7 +63,7 @@ static func _of_properties(material: LobeMaterial3D) -> PackedStringArray:
 			warnings.append("Its textures do not change its lobes: " + problem)
 	if (
 		EnvironmentWarnings.is_compatibility()
-		and material.transparency == LobeMaterial3D.Transparency.ALPHA_HASH
+		and material.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_HASH
 	):
 		warnings.append("Compatibility has no alpha hash and blends instead: take Alpha Scissor.")
 	return warnings

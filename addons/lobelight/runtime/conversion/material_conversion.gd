@@ -5,198 +5,124 @@ extends "../material/conversion.gd"
 
 const Widths := preload("../table/widths.gd")
 
-# Of the same name and meaning on both sides.
-const _SHARED: Array[StringName] = [
-	&"transparency",
-	&"alpha_scissor_threshold",
-	&"alpha_hash_scale",
-	&"blend_mode",
-	&"cull_mode",
-	&"vertex_color_use_as_albedo",
-	&"vertex_color_is_srgb",
-	&"albedo_texture",
-	&"texture_filter",
-	&"texture_repeat",
-	&"render_priority",
-	&"next_pass",
-	&"resource_name",
-]
-
-# What a StandardMaterial3D may have, and its property's value without it.
-const _LOST: Dictionary[StringName, Variant] = {
-	&"albedo_texture_force_srgb": false,
-	&"albedo_texture_msdf": false,
-	&"alpha_antialiasing_mode": BaseMaterial3D.ALPHA_ANTIALIASING_OFF,
-	&"backlight_enabled": false,
-	&"bent_normal_enabled": false,
-	&"billboard_mode": BaseMaterial3D.BILLBOARD_DISABLED,
-	&"depth_draw_mode": BaseMaterial3D.DEPTH_DRAW_OPAQUE_ONLY,
-	&"depth_test": BaseMaterial3D.DEPTH_TEST_DEFAULT,
-	&"detail_enabled": false,
-	&"diffuse_mode": BaseMaterial3D.DIFFUSE_BURLEY,
-	&"disable_fog": false,
-	&"disable_receive_shadows": false,
-	&"distance_fade_mode": BaseMaterial3D.DISTANCE_FADE_DISABLED,
-	&"fixed_size": false,
-	&"grow": false,
-	&"heightmap_enabled": false,
-	&"no_depth_test": false,
-	&"proximity_fade_enabled": false,
-	&"refraction_enabled": false,
-	&"rim_enabled": false,
-	&"shading_mode": BaseMaterial3D.SHADING_MODE_PER_PIXEL,
-	&"shadow_to_opacity": false,
-	&"specular_mode": BaseMaterial3D.SPECULAR_SCHLICK_GGX,
-	&"stencil_mode": BaseMaterial3D.STENCIL_MODE_DISABLED,
-	&"subsurf_scatter_enabled": false,
-	&"use_particle_trails": false,
-	&"use_point_size": false,
-	&"uv1_triplanar": false,
+# Of Material: of the same meaning on both sides too.
+const _OF_ALL_MATERIALS: Array[StringName] = [&"render_priority", &"next_pass", &"resource_name"]
+# Said by other properties as well.
+const _DERIVED: Array[StringName] = [&"emission_intensity"]
+# What turns a group of properties off, and what these begin with.
+const _SWITCHES: Dictionary[String, Array] = {
+	"backlight_enabled": ["backlight"],
+	"bent_normal_enabled": ["bent_normal_"],
+	"billboard_mode": ["billboard_", "particles_anim_"],
+	"detail_enabled": ["detail_"],
+	"distance_fade_mode": ["distance_fade_"],
+	"emission_enabled": ["emission"],
+	"grow": ["grow_"],
+	"heightmap_enabled": ["heightmap_"],
+	"albedo_texture_msdf": ["msdf_"],
+	"proximity_fade_enabled": ["proximity_fade_"],
+	"refraction_enabled": ["refraction_"],
+	"rim_enabled": ["rim"],
+	"stencil_mode": ["stencil_"],
+	"subsurf_scatter_enabled": ["subsurf_scatter_"],
+	"use_fov_override": ["fov_override"],
+	"use_point_size": ["point_size"],
+	"use_z_clip_scale": ["z_clip_scale"],
+	"uv1_triplanar": ["uv1_triplanar_", "uv1_world_"],
+	"uv2_triplanar": ["uv2_triplanar_", "uv2_world_"],
 }
+
+# Properties of both BaseMaterial3D and LobeBaseMaterial3D.
+static var _shared: Array[StringName] = []
 
 
 func from_standard(source: BaseMaterial3D) -> LobeMaterial3D:
 	var made := LobeMaterial3D.new()
 	_copy(source, made)
-	made.albedo = source.albedo_color
-	made.uv1_scale = Vector2(source.uv1_scale.x, source.uv1_scale.y)
-	made.uv1_offset = Vector2(source.uv1_offset.x, source.uv1_offset.y)
 	if source is ORMMaterial3D:
-		_take_orm(source, made)
+		# Its texture alone tells them.
+		made.roughness = 1.0
+		made.metallic = 1.0
 	else:
-		_take_parts(source, made)
-	if source.normal_enabled:
-		made.normal_texture = source.normal_texture
-		made.normal_scale = source.normal_scale
-	if source.clearcoat_enabled:
-		made.clearcoat = source.clearcoat
-		made.clearcoat_roughness = source.clearcoat_roughness
-		made.clearcoat_texture = source.clearcoat_texture
-	if source.anisotropy_enabled:
-		made.anisotropy = source.anisotropy
-		made.anisotropy_flowmap = source.anisotropy_flowmap
-	if source.emission_enabled:
-		made.emission = source.emission
-		made.emission_energy = source.emission_energy_multiplier
-		made.emission_operator = source.emission_operator as LobeMaterial3D.EmissionOperator
-		made.emission_texture = source.emission_texture
+		made.orm_texture = null
 	return made
 
 
 func to_standard(shown: ShaderMaterial) -> BaseMaterial3D:
 	var source := shown as LobeMaterial3D
-	var packed := (
+	var is_packed := (
 		source.orm_texture != null
 		and source.roughness == 1.0
 		and source.metallic == 1.0
-		and source.specular == 0.5
+		and source.metallic_specular == 0.5
 	)
-	var made: BaseMaterial3D = ORMMaterial3D.new() if packed else StandardMaterial3D.new()
+	var made: BaseMaterial3D = ORMMaterial3D.new() if is_packed else StandardMaterial3D.new()
 	_copy(source, made)
-	made.albedo_color = source.albedo
-	made.uv1_scale = Vector3(source.uv1_scale.x, source.uv1_scale.y, 1.0)
-	made.uv1_offset = Vector3(source.uv1_offset.x, source.uv1_offset.y, 0.0)
-	if packed:
-		made.orm_texture = source.orm_texture
-		made.ao_enabled = true
-		made.ao_light_affect = source.ao_light_affect
-	else:
+	if not is_packed:
 		_give_parts(source, made)
-	made.normal_enabled = source.normal_texture != null
-	made.normal_texture = source.normal_texture
-	made.normal_scale = source.normal_scale
-	made.clearcoat_enabled = source.clearcoat > 0.0
-	made.clearcoat = source.clearcoat
-	made.clearcoat_roughness = source.clearcoat_roughness
-	made.clearcoat_texture = source.clearcoat_texture
 	_give_anisotropy(source, made)
-	var glows := source.emission != Color.BLACK or source.emission_texture != null
-	made.emission_enabled = glows and source.emission_energy != 0.0
-	made.emission = source.emission
-	made.emission_energy_multiplier = source.emission_energy
-	made.emission_operator = source.emission_operator as BaseMaterial3D.EmissionOperator
-	made.emission_texture = source.emission_texture
 	return made
 
 
 func get_losses(source: BaseMaterial3D) -> PackedStringArray:
 	var losses: PackedStringArray = []
-	for name in _LOST:
-		if source.get(name) != _LOST[name]:
+	var shared := _find_shared()
+	var usual := StandardMaterial3D.new()
+	for property: Dictionary in ClassDB.class_get_property_list(&"BaseMaterial3D", true):
+		var name: String = property["name"]
+		if property["usage"] & PROPERTY_USAGE_STORAGE == 0 or name in shared or name in _DERIVED:
+			continue
+		if source.get(name) != usual.get(name) and not _is_off(source, name):
 			losses.append(name)
-	if source.emission_enabled and source.emission_on_uv2:
-		losses.append("emission_on_uv2")
 	return losses
 
 
+static func _is_off(source: BaseMaterial3D, name: String) -> bool:
+	for switch in _SWITCHES:
+		for beginning: String in _SWITCHES[switch]:
+			if name != switch and name.begins_with(beginning):
+				return not source.get(switch)
+	return false
+
+
 static func _copy(source: Material, made: Material) -> void:
-	for name in _SHARED:
+	for name in _find_shared():
 		made.set(name, source.get(name))
 
 
-# Roughness and metallic of an ORMMaterial3D are those of its texture alone.
-static func _take_orm(source: BaseMaterial3D, made: LobeMaterial3D) -> void:
-	made.roughness = 1.0
-	made.metallic = 1.0
-	made.ao_light_affect = source.ao_light_affect
-	if source.ao_enabled:
-		made.orm_texture = source.orm_texture
-		return
-	made.roughness_texture = source.orm_texture
-	made.roughness_texture_channel = LobeMaterial3D.TextureChannel.GREEN
-	made.metallic_texture = source.orm_texture
-	made.metallic_texture_channel = LobeMaterial3D.TextureChannel.BLUE
+static func _find_shared() -> Array[StringName]:
+	if not _shared.is_empty():
+		return _shared
+	var shared := _OF_ALL_MATERIALS.duplicate()
+	var ours: Script = LobeBaseMaterial3D
+	for property: Dictionary in ours.get_script_property_list():
+		var name: StringName = property["name"]
+		if ClassDB.class_get_property_setter("BaseMaterial3D", name):
+			shared.append(name)
+	_shared = shared
+	return _shared
 
 
-static func _take_parts(source: BaseMaterial3D, made: LobeMaterial3D) -> void:
-	made.metallic = source.metallic
-	made.specular = source.metallic_specular
-	made.metallic_texture = source.metallic_texture
-	made.metallic_texture_channel = (
-		source.metallic_texture_channel as LobeMaterial3D.TextureChannel
-	)
-	made.roughness = source.roughness
-	made.roughness_texture = source.roughness_texture
-	made.roughness_texture_channel = (
-		source.roughness_texture_channel as LobeMaterial3D.TextureChannel
-	)
-	if source.ao_enabled:
-		made.ao_texture = source.ao_texture
-		made.ao_texture_channel = source.ao_texture_channel as LobeMaterial3D.TextureChannel
-		made.ao_on_uv2 = source.ao_on_uv2
-		made.ao_light_affect = source.ao_light_affect
-
-
+# A StandardMaterial3D has no packed texture, nor a table.
 static func _give_parts(source: LobeMaterial3D, made: BaseMaterial3D) -> void:
-	var orm := source.orm_texture
-	made.metallic = source.metallic
-	made.metallic_specular = source.specular
-	made.metallic_texture = orm if orm != null else source.metallic_texture
-	made.metallic_texture_channel = (
-		BaseMaterial3D.TEXTURE_CHANNEL_BLUE if orm != null else source.metallic_texture_channel
-		as BaseMaterial3D.TextureChannel
-	)
 	made.roughness = _get_godots(source).x
-	made.roughness_texture = orm if orm != null else source.roughness_texture
-	made.roughness_texture_channel = (
-		BaseMaterial3D.TEXTURE_CHANNEL_GREEN if orm != null else source.roughness_texture_channel
-		as BaseMaterial3D.TextureChannel
-	)
-	made.ao_texture = orm if orm != null else source.ao_texture
-	made.ao_enabled = made.ao_texture != null
-	made.ao_texture_channel = (
-		BaseMaterial3D.TEXTURE_CHANNEL_RED if orm != null else source.ao_texture_channel
-		as BaseMaterial3D.TextureChannel
-	)
-	made.ao_on_uv2 = source.ao_on_uv2 and orm == null
-	made.ao_light_affect = source.ao_light_affect
+	var orm := source.orm_texture
+	made.orm_texture = null
+	if orm == null:
+		return
+	made.metallic_texture = orm
+	made.metallic_texture_channel = BaseMaterial3D.TEXTURE_CHANNEL_BLUE
+	made.roughness_texture = orm
+	made.roughness_texture_channel = BaseMaterial3D.TEXTURE_CHANNEL_GREEN
+	made.ao_texture = orm
+	made.ao_texture_channel = BaseMaterial3D.TEXTURE_CHANNEL_RED
+	made.ao_on_uv2 = false
 
 
 # Godot has no angle beside the flow map: without a map, one of a single direction stands for it.
 static func _give_anisotropy(source: LobeMaterial3D, made: BaseMaterial3D) -> void:
 	var anisotropy := _get_godots(source).y
 	var angle := source.anisotropy_rotation
-	made.anisotropy_flowmap = source.anisotropy_flowmap
 	if angle != 0.0 and anisotropy != 0.0 and source.anisotropy_flowmap == null:
 		if anisotropy < 0.0:
 			anisotropy = Widths.exchanged(anisotropy)
@@ -206,11 +132,12 @@ static func _give_anisotropy(source: LobeMaterial3D, made: BaseMaterial3D) -> vo
 		image.fill(Color(flow.x, flow.y, 0.0, 1.0))
 		made.anisotropy_flowmap = ImageTexture.create_from_image(image)
 	made.anisotropy_enabled = anisotropy != 0.0
-	made.anisotropy = clampf(anisotropy, -1.0, 1.0)
+	if made.anisotropy_enabled:
+		made.anisotropy = clampf(anisotropy, -1.0, 1.0)
 
 
-# Roughness and anisotropy, of the material's own table where it has one.
+# Roughness and shown anisotropy, of the material's own table where it has one.
 static func _get_godots(source: LobeMaterial3D) -> Vector2:
 	if source.table != null and source.table.get_problem().is_empty():
 		return Widths.to_roughness(source.table.alpha)
-	return Vector2(source.roughness, source.anisotropy)
+	return Vector2(source.roughness, source.get_shown_anisotropy())

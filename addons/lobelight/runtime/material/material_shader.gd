@@ -2,7 +2,6 @@
 extends Object
 ## The shader variant of a [LobeMaterial3D]: its render modes and defines.
 
-const MaterialInputs := preload("material_inputs.gd")
 const LightRegistry := preload("../light/light_registry.gd")
 const TableChoice := preload("table_choice.gd")
 
@@ -23,16 +22,18 @@ const DIFFUSE_FETCHES := 6
 
 
 ## Everything before the include of the fragment function.
-static func get_code(inputs: MaterialInputs, choice: TableChoice) -> String:
-	var code := "shader_type spatial;\nrender_mode %s;\n" % ", ".join(_render_modes(inputs))
-	for name in _defines(inputs, choice):
+static func get_code(surface: LobeBaseMaterial3D, choice: TableChoice) -> String:
+	var code := "shader_type spatial;\nrender_mode %s;\n" % ", ".join(_render_modes(surface))
+	for name in _defines(surface, choice):
 		code += "#define LOBELIGHT_%s\n" % name
 	return code
 
 
 ## See [method LobeMaterial3D.get_fetches].
-static func count_fetches(inputs: MaterialInputs, choice: TableChoice) -> Dictionary[String, int]:
-	var defines := _defines(inputs, choice)
+static func count_fetches(
+	surface: LobeBaseMaterial3D, choice: TableChoice
+) -> Dictionary[String, int]:
+	var defines := _defines(surface, choice)
 	var environment := choice.lobe_count
 	var table := choice.lobe_count
 	var samplers := 2
@@ -60,26 +61,26 @@ static func _count_placed_samplers(defines: PackedStringArray) -> int:
 	return samplers
 
 
-static func _render_modes(inputs: MaterialInputs) -> PackedStringArray:
+static func _render_modes(surface: LobeBaseMaterial3D) -> PackedStringArray:
 	var modes: PackedStringArray = ["ambient_light_disabled"]
 	# What is the engine's default is left out.
-	if inputs.is_dielectric():
+	if surface.is_dielectric():
 		# As Godot's own materials are lit by its lights.
 		modes.append("diffuse_burley")
-	if inputs.blend_mode != BaseMaterial3D.BLEND_MODE_MIX:
-		modes.append(_BLEND_MODES[inputs.blend_mode])
-	if inputs.cull_mode != BaseMaterial3D.CULL_BACK:
-		modes.append(_CULL_MODES[inputs.cull_mode])
-	if inputs.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_DEPTH_PRE_PASS:
+	if surface.blend_mode != BaseMaterial3D.BLEND_MODE_MIX:
+		modes.append(_BLEND_MODES[surface.blend_mode])
+	if surface.cull_mode != BaseMaterial3D.CULL_BACK:
+		modes.append(_CULL_MODES[surface.cull_mode])
+	if surface.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_DEPTH_PRE_PASS:
 		modes.append("depth_prepass_alpha")
 	return modes
 
 
-static func _defines(inputs: MaterialInputs, choice: TableChoice) -> PackedStringArray:
+static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> PackedStringArray:
 	var defines: PackedStringArray = ["LOBES %d" % choice.lobe_count]
 	if choice.is_isotropic:
 		defines.append("ISOTROPIC")
-	elif choice.table != null and choice.table == inputs.table and choice.anisotropy < 0.0:
+	elif choice.table != null and choice.table == surface.table and choice.anisotropy < 0.0:
 		defines.append("WIDE_BITANGENT")
 	if not choice.is_isotropic and choice.rotation != 0.0:
 		defines.append("TURNED")
@@ -89,61 +90,63 @@ static func _defines(inputs: MaterialInputs, choice: TableChoice) -> PackedStrin
 		defines.append("SECOND_TEXELS")
 	if choice.is_from_set:
 		defines.append("COMPENSATED")
-	if inputs.is_dielectric():
+	if surface.is_dielectric():
 		defines.append("DIELECTRIC")
-	defines.append_array(LightRegistry.get_defines(inputs.rid))
+	defines.append_array(LightRegistry.get_defines(surface.get_rid()))
 	if choice.coat != null:
 		defines.append("COAT_LOBES %d" % choice.coat.lobe_count)
-	if inputs.emits():
+	if surface.emits():
 		defines.append("EMISSION")
-	_add_alpha(inputs, defines)
-	_add_textures(inputs, choice, defines)
-	if inputs.vertex_color_use_as_albedo:
+	_add_alpha(surface, defines)
+	_add_textures(surface, choice, defines)
+	if surface.vertex_color_use_as_albedo:
 		defines.append("VERTEX_COLOUR")
-		if inputs.vertex_color_is_srgb:
+		if surface.vertex_color_is_srgb:
 			defines.append("SRGB_VERTEX_COLOUR")
 	return defines
 
 
-static func _add_alpha(inputs: MaterialInputs, defines: PackedStringArray) -> void:
-	if inputs.transparency == BaseMaterial3D.TRANSPARENCY_DISABLED:
+static func _add_alpha(surface: LobeBaseMaterial3D, defines: PackedStringArray) -> void:
+	if surface.transparency == BaseMaterial3D.TRANSPARENCY_DISABLED:
 		return
 	defines.append("ALPHA")
-	if inputs.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR:
+	if surface.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR:
 		defines.append("ALPHA_SCISSOR")
-	elif inputs.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_HASH:
+	elif surface.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_HASH:
 		defines.append("ALPHA_HASH")
 
 
 static func _add_textures(
-	inputs: MaterialInputs, choice: TableChoice, defines: PackedStringArray
+	surface: LobeBaseMaterial3D, choice: TableChoice, defines: PackedStringArray
 ) -> void:
 	var first := defines.size()
-	if inputs.albedo_texture != null:
+	if surface.albedo_texture != null:
 		defines.append("ALBEDO_TEXTURE")
-	if inputs.orm_texture != null:
-		defines.append_array(["ORM_TEXTURE", "AO"])
+	if surface.orm_texture != null:
+		defines.append("ORM_TEXTURE")
 	else:
-		if inputs.roughness_texture != null:
+		if surface.roughness_texture != null:
 			defines.append("ROUGHNESS_TEXTURE")
-		if inputs.metallic_texture != null:
+		if surface.metallic_texture != null:
 			defines.append("METALLIC_TEXTURE")
-		if inputs.ao_texture != null:
-			defines.append_array(["AO", "AO_TEXTURE"])
-			if inputs.ao_on_uv2:
+	if surface.is_occluded():
+		defines.append("AO")
+		if surface.orm_texture == null:
+			defines.append("AO_TEXTURE")
+			if surface.ao_on_uv2:
 				defines.append("AO_ON_UV2")
-	if inputs.normal_texture != null:
+	if surface.has_normal_map():
 		defines.append("NORMAL_TEXTURE")
-	if inputs.anisotropy_flowmap != null and not choice.is_isotropic:
+	if surface.anisotropy_flowmap != null and not choice.is_isotropic:
 		defines.append("FLOWMAP")
-	if inputs.clearcoat_texture != null and choice.coat != null:
+	if surface.clearcoat_texture != null and choice.coat != null:
 		defines.append("COAT_TEXTURE")
-	if inputs.emission_texture != null and inputs.emits():
+	if surface.emission_texture != null and surface.emits():
 		defines.append("EMISSION_TEXTURE")
 	if defines.size() == first:
 		return
 	defines.append("TEXTURED")
-	var repeat := "repeat_enable" if inputs.texture_repeat else "repeat_disable"
-	defines.append("SAMPLING %s, %s" % [_FILTERS[inputs.texture_filter], repeat])
-	if inputs.uv1_scale != Vector2.ONE or inputs.uv1_offset != Vector2.ZERO:
+	var repeat := "repeat_enable" if surface.texture_repeat else "repeat_disable"
+	defines.append("SAMPLING %s, %s" % [_FILTERS[surface.texture_filter], repeat])
+	if surface.uv1_scale != Vector3.ONE or surface.uv1_offset != Vector3.ZERO:
 		defines.append("UV_TRANSFORM")

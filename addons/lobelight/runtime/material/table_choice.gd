@@ -2,7 +2,6 @@
 extends RefCounted
 ## Which lobes a [LobeMaterial3D] draws: a table, or all tables of a set.
 
-const MaterialInputs := preload("material_inputs.gd")
 const Widths := preload("../table/widths.gd")
 const WidthsTexture := preload("../table/widths_texture.gd")
 const DEFAULT_SET := "res://addons/lobelight/tables/ggx_8.res"
@@ -30,37 +29,37 @@ var _stand_in: LobeTable
 
 
 ## Looks anew at what the material says.
-func choose(inputs: MaterialInputs) -> void:
+func choose(surface: LobeBaseMaterial3D) -> void:
 	# Sets find a shared table again only while somebody holds it, and the rendering server goes on
 	# drawing with its texture.
 	@warning_ignore("unused_variable")
 	var held := [table, widths_texture, coat]
-	roughness = inputs.roughness
-	anisotropy = inputs.anisotropy
-	rotation = inputs.anisotropy_rotation
+	roughness = surface.roughness
+	anisotropy = surface.get_shown_anisotropy()
+	rotation = surface.anisotropy_rotation
 	table = null
 	widths_texture = null
-	var tables := get_set(inputs)
-	is_from_set = inputs.table == null and tables != null
+	var tables := get_set(surface)
+	is_from_set = surface.table == null and tables != null
 	if is_from_set:
-		_choose_from(tables, inputs)
+		_choose_from(tables, surface)
 	else:
-		_choose_table(inputs)
+		_choose_table(surface)
 	coat = null
-	if inputs.clearcoat > 0.0 and tables != null:
-		var width := Widths.from_coat_roughness(inputs.clearcoat_roughness)
+	if surface.is_coated() and tables != null:
+		var width := Widths.from_coat_roughness(surface.clearcoat_roughness)
 		coat = tables.shared_table_at(Vector2(width, width))
 
 
-func _choose_from(tables: LobeTableSet, inputs: MaterialInputs) -> void:
+func _choose_from(tables: LobeTableSet, surface: LobeBaseMaterial3D) -> void:
 	_stand_in = null
 	# Neither the engine nor flow maps turn negative anisotropy.
-	if anisotropy < 0.0 and rotation != 0.0 and inputs.anisotropy_flowmap == null:
+	if anisotropy < 0.0 and rotation != 0.0 and surface.anisotropy_flowmap == null:
 		anisotropy = Widths.exchanged(anisotropy)
 		rotation += 0.5 * PI
 	lobe_count = tables.lobe_count
 	is_isotropic = anisotropy == 0.0
-	if inputs.varies() and WidthsTexture.find_problem(tables.widths, is_isotropic).is_empty():
+	if surface.varies() and WidthsTexture.find_problem(tables.widths, is_isotropic).is_empty():
 		widths_texture = tables.get_widths_texture(is_isotropic)
 	else:
 		table = tables.shared_table_at(Widths.from_roughness(roughness, anisotropy))
@@ -68,10 +67,10 @@ func _choose_from(tables: LobeTableSet, inputs: MaterialInputs) -> void:
 
 
 # A material's own table, or one that stands in for it.
-func _choose_table(inputs: MaterialInputs) -> void:
-	if inputs.table != null and inputs.table.get_problem().is_empty():
+func _choose_table(surface: LobeBaseMaterial3D) -> void:
+	if surface.table != null and surface.table.get_problem().is_empty():
 		_stand_in = null
-		table = inputs.table
+		table = surface.table
 	else:
 		if _stand_in == null:
 			_stand_in = LobeTable.make_single_lobe()
@@ -85,10 +84,10 @@ func _choose_table(inputs: MaterialInputs) -> void:
 
 ## The set that a material's lobes, or its coat's, come from; null if it has a table of its own and
 ## no coat, or there is none.
-static func get_set(inputs: MaterialInputs) -> LobeTableSet:
-	if inputs.table_set != null:
-		return inputs.table_set if inputs.table_set.get_problem().is_empty() else null
-	if inputs.table != null and inputs.clearcoat <= 0.0:
+static func get_set(surface: LobeBaseMaterial3D) -> LobeTableSet:
+	if surface.table_set != null:
+		return surface.table_set if surface.table_set.get_problem().is_empty() else null
+	if surface.table != null and not surface.is_coated():
 		return null
 	_mutex.lock()
 	var found := _default_set

@@ -1,0 +1,363 @@
+@tool
+@abstract class_name LobeBaseMaterial3D
+extends ShaderMaterial
+## What a surface looks like, in the words of [BaseMaterial3D]: a property that is here and there has
+## the same name, type, default and effect, so that scripts, tweens and animations written for a
+## [StandardMaterial3D] work on a [LobeMaterial3D].
+##
+## [LobeMaterial3D] draws it. Where a property goes further than that of [BaseMaterial3D], it says so.
+
+# The hints of enumerations, as BaseMaterial3D's own.
+const _TRANSPARENCIES := "Disabled,Alpha,Alpha Scissor,Alpha Hash,Depth Pre-Pass"
+const _BLEND_MODES := "Mix,Add,Subtract,Multiply,Premultiplied Alpha"
+const _CULL_MODES := "Back,Front,Disabled"
+const _CHANNELS := "Red,Green,Blue,Alpha,Gray"
+const _OPERATORS := "Add,Multiply"
+const _FILTERS := (
+	"Nearest,Linear,Nearest Mipmap,Linear Mipmap,Nearest Mipmap Anisotropic,"
+	+ "Linear Mipmap Anisotropic"
+)
+
+const Widths := preload("../table/widths.gd")
+
+@export_group("BRDF")
+## Where the lobes of any [member roughness] and [member anisotropy] come from. Without one, GGX
+## with eight lobes, which is the BRDF of Godot's own materials; [code]ward_8.res[/code], beside
+## it in [code]addons/lobelight/tables[/code], is Ward's.
+@export var table_set: LobeTableSet:
+	set(value):
+		_follow(table_set, value)
+		table_set = value
+		_queue_update()
+## The lobes of one BRDF, measured ones for instance. With a table, [member table_set],
+## [member roughness] and [member anisotropy] do not count; the engine's own lights take the widths
+## of the table. It is drawn as it is, without compensation for lost energy.
+@export var table: LobeTable:
+	set(value):
+		_follow(table, value)
+		table = value
+		_queue_update()
+
+@export_group("Transparency")
+## Whether and how [member albedo_color]'s alpha makes the surface transparent. Compatibility has no
+## alpha hash; there it blends.
+@export_custom(PROPERTY_HINT_ENUM, _TRANSPARENCIES)
+var transparency: BaseMaterial3D.Transparency = BaseMaterial3D.TRANSPARENCY_DISABLED:
+	set(value):
+		transparency = value
+		notify_property_list_changed()
+		_queue_update()
+## What is less opaque is not drawn.
+@export_range(0.0, 1.0, 0.001) var alpha_scissor_threshold := 0.5:
+	set(value):
+		alpha_scissor_threshold = value
+		_queue_update()
+## The size of the grain.
+@export_range(0.0, 2.0, 0.01) var alpha_hash_scale := 1.0:
+	set(value):
+		alpha_hash_scale = value
+		_queue_update()
+## How the surface is blended with what is behind it.
+@export_custom(PROPERTY_HINT_ENUM, _BLEND_MODES)
+var blend_mode: BaseMaterial3D.BlendMode = BaseMaterial3D.BLEND_MODE_MIX:
+	set(value):
+		blend_mode = value
+		_queue_update()
+## The side that is not drawn. With CULL_DISABLED, back faces are lit as front faces of the other
+## side.
+@export_custom(PROPERTY_HINT_ENUM, _CULL_MODES)
+var cull_mode: BaseMaterial3D.CullMode = BaseMaterial3D.CULL_BACK:
+	set(value):
+		cull_mode = value
+		_queue_update()
+
+@export_group("Vertex Color", "vertex_color_")
+## Multiplies [member albedo_color] with the mesh's colours.
+@export var vertex_color_use_as_albedo := false:
+	set(value):
+		vertex_color_use_as_albedo = value
+		_queue_update()
+## Whether the mesh's colours are sRGB.
+@export var vertex_color_is_srgb := false:
+	set(value):
+		vertex_color_is_srgb = value
+		_queue_update()
+
+@export_group("Albedo", "albedo_")
+## The colour. Metals reflect this share of the light at normal incidence, and at grazing angles all
+## of it, by Schlick's approximation; other materials scatter it. Alpha is the opacity, see
+## [member transparency].
+@export var albedo_color := Color.WHITE:
+	set(value):
+		albedo_color = value
+		_update_albedo()
+		emit_changed()
+## Multiplied with [member albedo_color].
+@export var albedo_texture: Texture2D:
+	set(value):
+		albedo_texture = value
+		_queue_update()
+
+@export_group("ORM", "orm_")
+## Factors of [member roughness] and [member metallic] in green and blue, and with [member
+## ao_enabled], occlusion in red. It replaces the textures of the three, as in [ORMMaterial3D].
+@export var orm_texture: Texture2D:
+	set(value):
+		orm_texture = value
+		_queue_update()
+
+@export_group("Metallic", "metallic_")
+## 1 for metals, 0 for everything else. Pure metals cost less, as they have no diffuse light.
+@export_range(0.0, 1.0, 0.01) var metallic := 0.0:
+	set(value):
+		metallic = clampf(value, 0.0, 1.0)
+		_queue_update()
+## How much light is reflected by what is no metal: 16 % of the square, so that 0.5 is the 4 % of
+## plastic and glass.
+@export_range(0.0, 1.0, 0.01) var metallic_specular := 0.5:
+	set(value):
+		metallic_specular = clampf(value, 0.0, 1.0)
+		_queue_update()
+## A factor of [member metallic].
+@export var metallic_texture: Texture2D:
+	set(value):
+		metallic_texture = value
+		_queue_update()
+## The channel of [member metallic_texture].
+@export_custom(PROPERTY_HINT_ENUM, _CHANNELS)
+var metallic_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_CHANNEL_RED:
+	set(value):
+		metallic_texture_channel = value
+		_queue_update()
+
+@export_group("Roughness", "roughness_")
+## From 0, nearly a mirror, to 1. [method LobeMaterial3D.widths_of] tells what it does.
+@export_range(0.0, 1.0, 0.001) var roughness := 1.0:
+	set(value):
+		roughness = clampf(value, 0.0, 1.0)
+		_queue_update()
+## A factor of [member roughness]. With it, tables are looked up for each pixel: as many fetches as
+## without where the material is not anisotropic, otherwise twice as many. The widths of [member
+## LobeMaterial3D.table_set] must grow by equal factors for it, as those of the ready sets do, and
+## with anisotropy there may be 22 of them, since 3D textures have 256 layers; otherwise it is for
+## the engine's own lights only.
+@export var roughness_texture: Texture2D:
+	set(value):
+		roughness_texture = value
+		_queue_update()
+## The channel of [member roughness_texture].
+@export_custom(PROPERTY_HINT_ENUM, _CHANNELS)
+var roughness_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_CHANNEL_RED:
+	set(value):
+		roughness_texture_channel = value
+		_queue_update()
+
+@export_group("Emission", "emission_")
+## Whether the surface sends out light by itself.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var emission_enabled := false:
+	set(value):
+		emission_enabled = value
+		_queue_update()
+## The light that it sends out.
+@export_color_no_alpha var emission := Color.BLACK:
+	set(value):
+		emission = value
+		_queue_update()
+## A factor for [member emission] and its texture.
+@export_range(0.0, 16.0, 0.01, "or_greater") var emission_energy_multiplier := 1.0:
+	set(value):
+		emission_energy_multiplier = value
+		_queue_update()
+## Whether [member emission_texture] is added to or multiplied with [member emission].
+@export_custom(PROPERTY_HINT_ENUM, _OPERATORS)
+var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION_OP_ADD:
+	set(value):
+		emission_operator = value
+		_queue_update()
+## More light that the surface sends out.
+@export var emission_texture: Texture2D:
+	set(value):
+		emission_texture = value
+		_queue_update()
+
+@export_group("Normal Map", "normal_")
+## Whether [member normal_texture] bends the normal. The mesh needs tangents.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var normal_enabled := false:
+	set(value):
+		normal_enabled = value
+		_queue_update()
+## The strength of the normal map.
+@export_range(-16.0, 16.0, 0.01) var normal_scale := 1.0:
+	set(value):
+		normal_scale = value
+		_queue_update()
+## A tangent-space normal map.
+@export var normal_texture: Texture2D:
+	set(value):
+		normal_texture = value
+		_queue_update()
+
+@export_group("Clearcoat", "clearcoat_")
+## Whether there is a clear lacquer over the material. It has lobes of its own, and costs as many
+## fetches again.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var clearcoat_enabled := false:
+	set(value):
+		clearcoat_enabled = value
+		_queue_update()
+## The strength of the lacquer.
+@export_range(0.0, 1.0, 0.01) var clearcoat := 1.0:
+	set(value):
+		clearcoat = clampf(value, 0.0, 1.0)
+		_queue_update()
+## The lacquer's roughness: its width is between 0.001 and 0.1.
+@export_range(0.0, 1.0, 0.01) var clearcoat_roughness := 0.5:
+	set(value):
+		clearcoat_roughness = clampf(value, 0.0, 1.0)
+		_queue_update()
+## Factors of [member clearcoat] in red and of [member clearcoat_roughness] in green, the latter for
+## the engine's own lights only.
+@export var clearcoat_texture: Texture2D:
+	set(value):
+		clearcoat_texture = value
+		_queue_update()
+
+@export_group("Anisotropy", "anisotropy_")
+## Whether highlights are wider along the tangent than across, as on brushed metal. Meshes need
+## tangents for it.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var anisotropy_enabled := false:
+	set(value):
+		anisotropy_enabled = value
+		_queue_update()
+## How much wider highlights are along the tangent than across: from −1 to 1 the same as [member
+## BaseMaterial3D.anisotropy], widths being 10:1 at 1 and 1:1.9 at −1, and beyond that up to 100:1
+## at 1.1.
+@export_range(-1.0, 1.1, 0.001) var anisotropy := 0.0:
+	set(value):
+		anisotropy = clampf(value, -1.0, Widths.MAX_ANISOTROPY)
+		_queue_update()
+## Where the tangent of the lobes points: red and green are the direction, alpha a factor of [member
+## anisotropy]. It has no say where the anisotropy is negative. Without an alpha channel it does not
+## cost more fetches.
+@export var anisotropy_flowmap: Texture2D:
+	set(value):
+		anisotropy_flowmap = value
+		_queue_update()
+## An angle from the mesh's tangent, towards its bitangent, to the direction in which the first
+## width is measured; added to that of [member anisotropy_flowmap]. [BaseMaterial3D] has none.
+@export_range(-180.0, 180.0, 0.1, "radians_as_degrees") var anisotropy_rotation := 0.0:
+	set(value):
+		anisotropy_rotation = value
+		_queue_update()
+
+@export_group("Ambient Occlusion", "ao_")
+## Whether [member ao_texture], or the red channel of [member orm_texture], darkens the light of the
+## surroundings.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var ao_enabled := false:
+	set(value):
+		ao_enabled = value
+		_queue_update()
+## How much the occlusion darkens the engine's own lights.
+@export_range(0.0, 1.0, 0.01) var ao_light_affect := 0.0:
+	set(value):
+		ao_light_affect = value
+		_queue_update()
+## The share of the surroundings that the surface sees. Reflections are occluded by it as well
+## (Lagarde and de Rousiers 2014).
+@export var ao_texture: Texture2D:
+	set(value):
+		ao_texture = value
+		_queue_update()
+## Whether [member ao_texture] lies on the mesh's second texture coordinates.
+@export var ao_on_uv2 := false:
+	set(value):
+		ao_on_uv2 = value
+		_queue_update()
+## The channel of [member ao_texture].
+@export_custom(PROPERTY_HINT_ENUM, _CHANNELS)
+var ao_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_CHANNEL_RED:
+	set(value):
+		ao_texture_channel = value
+		_queue_update()
+
+@export_group("UV1", "uv1_")
+## A factor for the texture coordinates.
+@export_custom(PROPERTY_HINT_LINK, "") var uv1_scale := Vector3.ONE:
+	set(value):
+		uv1_scale = value
+		_queue_update()
+## Added to the texture coordinates after their scale.
+@export var uv1_offset := Vector3.ZERO:
+	set(value):
+		uv1_offset = value
+		_queue_update()
+
+@export_group("Sampling", "texture_")
+## How textures are filtered.
+@export_custom(PROPERTY_HINT_ENUM, _FILTERS)
+var texture_filter: BaseMaterial3D.TextureFilter = BaseMaterial3D.TEXTURE_FILTER_LINEAR_WITH_MIPMAPS:
+	set(value):
+		texture_filter = value
+		_queue_update()
+## Whether textures repeat.
+@export var texture_repeat := true:
+	set(value):
+		texture_repeat = value
+		_queue_update()
+
+
+## Whether there is diffuse light.
+func is_dielectric() -> bool:
+	return metallic_texture != null or orm_texture != null or metallic < 1.0
+
+
+## Whether the surface sends out light by itself.
+func emits() -> bool:
+	if not emission_enabled or emission_energy_multiplier == 0.0:
+		return false
+	var is_dark := emission.r == 0.0 and emission.g == 0.0 and emission.b == 0.0
+	if emission_texture == null:
+		return not is_dark
+	return not is_dark or emission_operator == BaseMaterial3D.EMISSION_OP_ADD
+
+
+## Whether normals are bent by a map.
+func has_normal_map() -> bool:
+	return normal_enabled and normal_texture != null
+
+
+## Whether a texture occludes the surface.
+func is_occluded() -> bool:
+	return ao_enabled and (ao_texture != null or orm_texture != null)
+
+
+## Whether there is a coat.
+func is_coated() -> bool:
+	return clearcoat_enabled and clearcoat > 0.0
+
+
+## [member anisotropy], or 0 where it is not enabled.
+func get_shown_anisotropy() -> float:
+	return anisotropy if anisotropy_enabled else 0.0
+
+
+## Whether the widths vary from pixel to pixel.
+func varies() -> bool:
+	if orm_texture != null or roughness_texture != null:
+		return true
+	if get_shown_anisotropy() == 0.0:
+		return false
+	return anisotropy_flowmap != null and anisotropy_flowmap.has_alpha()
+
+
+func _follow(before: Resource, after: Resource) -> void:
+	if before != null:
+		before.changed.disconnect(_queue_update)
+	if after != null:
+		after.changed.connect(_queue_update)
+
+
+# Something that the shader or its parameters depend on has changed.
+@abstract func _queue_update() -> void
+
+# The colour alone has: it is often animated.
+@abstract func _update_albedo() -> void
