@@ -1,11 +1,11 @@
 @tool
 @abstract class_name LobeBaseMaterial3D
 extends ShaderMaterial
-## What a surface looks like, in the words of [BaseMaterial3D]: a property that is here and there has
-## the same name, type, default and effect, so that scripts, tweens and animations written for a
-## [StandardMaterial3D] work on a [LobeMaterial3D].
+## What the surface of a [LobeMaterial3D] looks like, in the words of [BaseMaterial3D].
 ##
-## [LobeMaterial3D] draws it. Where a property goes further than that of [BaseMaterial3D], it says so.
+## A property of the same name has the same type, default and effect, so that scripts, tweens and
+## animations written for a [StandardMaterial3D] work on a [LobeMaterial3D]. Where a property goes
+## further, it says so.
 
 # The hints of enumerations, as BaseMaterial3D's own.
 const _TRANSPARENCIES := "Disabled,Alpha,Alpha Scissor,Alpha Hash,Depth Pre-Pass"
@@ -294,7 +294,7 @@ var ao_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_C
 @export_group("Sampling", "texture_")
 ## How textures are filtered.
 @export_custom(PROPERTY_HINT_ENUM, _FILTERS)
-var texture_filter: BaseMaterial3D.TextureFilter = BaseMaterial3D.TEXTURE_FILTER_LINEAR_WITH_MIPMAPS:
+var texture_filter := BaseMaterial3D.TEXTURE_FILTER_LINEAR_WITH_MIPMAPS:
 	set(value):
 		texture_filter = value
 		_queue_update()
