@@ -77,6 +77,7 @@ class Surface:
     def defines(self):
         names = [*self.table.defines(), "LOBELIGHT_ALPHA"]
         names += ["LOBELIGHT_DIELECTRIC"] * (self.dielectric is not None)
+        names += ["LOBELIGHT_METALLIC"] * (self.dielectric is not None and self.metallic > 0)
         names += ["LOBELIGHT_COMPENSATED"] * self.compensated
         names += ["LOBELIGHT_EMISSION"] * (self.emitted is not None)
         names += ["LOBELIGHT_TURNED"] * (self.turned is not None)
@@ -207,17 +208,20 @@ def expect_material(surface, cube, values, row, renderer):
         )
     checks = []
     for c in range(3):
-        f0 = About(d0 * (1 - metallic), 6 * U) + base[c] * About(metallic, 6 * U) if surface.dielectric else base[c]
-        f90 = About(d90 * (1 - metallic) + metallic, 6 * U) if surface.dielectric else About(mpf(1))
-        radiance = fresnel(reflection[0][c], reflection[1][c], f0, f90)
+        radiance = fresnel(reflection[0][c], reflection[1][c], base[c], About(mpf(1)))
         if surface.compensated:
-            radiance = radiance * (1 + f0 * lost)
+            radiance = radiance * (1 + base[c] * lost)
+        if surface.dielectric:
+            # What is no metal, and all that it reflects.
+            other = fresnel(reflection[0][c], reflection[1][c], About(d0), About(d90))
+            reflected = fresnel(reflection[2], reflection[3], About(d0), About(d90))
+            if surface.compensated:
+                other = other * (1 + About(d0) * lost)
+                reflected = reflected * (1 + About(d0) * lost)
+            radiance = other * About(1 - metallic, 6 * U) + radiance * About(metallic, 6 * U)
         if occluded:
             radiance = radiance * occluded
         if surface.dielectric:
-            reflected = fresnel(reflection[2], reflection[3], About(d0), About(d90))
-            if surface.compensated:
-                reflected = reflected * (1 + About(d0) * lost)
             left = (About(mpf(1)) - reflected).clamped(0, 1e9)
             scattered = base[c] * About(1 - metallic, 6 * U) * left
             if is_occluded:
@@ -310,8 +314,12 @@ def surfaces():
     varying = Surface(set_round, albedo=albedo, roughness=1.0, maps=("roughness",))
     brushed = Surface(set_long, albedo=albedo, roughness=1.0, anisotropy=1.0, maps=("roughness", "flow"))
     across = Surface(set_long, albedo=albedo, roughness=1.0, anisotropy=-0.5, maps=("roughness", "flow"))
+    half = Surface(long_table, albedo=albedo, roughness=0.375, dielectric=dielectric, metallic=0.5, compensated=True)
+    matte = Surface(long_table, albedo=albedo, roughness=0.375, dielectric=dielectric, metallic=0.0, compensated=True)
     return [
         ("metal", metal, "levels"),
+        ("half metal", half, "directions"),
+        ("no metal", matte, "directions"),
         ("with all textures", textured, "levels"),
         ("of many widths", varying, "directions"),
         ("brushed in many ways", brushed, "directions"),

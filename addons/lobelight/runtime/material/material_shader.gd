@@ -92,6 +92,8 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		defines.append("COMPENSATED")
 	if surface.is_dielectric():
 		defines.append("DIELECTRIC")
+		if surface.metallic > 0.0:
+			defines.append("METALLIC")
 	defines.append_array(LightRegistry.get_defines(surface.get_rid()))
 	if choice.coat != null:
 		defines.append("COAT_LOBES %d" % choice.coat.lobe_count)
