@@ -15,13 +15,14 @@ const FEATURES: PackedStringArray = [
 	"skies/world_views.gd",
 	"conversion/material_conversion.gd",
 	"probes/placed_lights.gd",
+	"occlusion/occlusion.gdshaderinc",
 ]
 
 ## A scene, and which of FEATURES it needs.
 const NEEDS := [
 	["isotropic", []],
 	["anisotropic", [3, 4]],
-	["everything", [0, 1, 2, 3, 4]],
+	["everything", [0, 1, 2, 3, 4, 7]],
 ]
 
 ## A line of a script, and which of FEATURES it may ask for.
@@ -29,10 +30,12 @@ const ASKING := [
 	["position = Vector3.ZERO", []],
 	["material.clearcoat_roughness = 0.3", [0]],
 	["material.metallic = 0.0", [1]],
+	["material.normal_texture = null", [7]],
+	["material.ao_enabled = true", [7]],
 	["$Light.filter = 1", [2]],
 	["$Light.panorama = null", [3, 4]],
 	["add_child(LobeEnvironment3D.new())", [3, 4]],
-	["material.set(property, 0.1)", [0, 1, 2, 3, 4]],
+	["material.set(property, 0.1)", [0, 1, 2, 3, 4, 7]],
 	["LobeMaterial3D.get_losses_from(material)", [5]],
 	['material.call("to_standard")', [5]],
 	["add_child(LobeProbe3D.new())", [3, 4, 6]],

@@ -1,5 +1,5 @@
 extends GdUnitTestSuite
-## LobeMaterial3D's surface: metals and all else, energy, diffuse light, occlusion, clear coat,
+## LobeMaterial3D's surface: metals and all else, energy, diffuse light, clear coat,
 ## textures, transparency.
 
 const Kit := preload("support/render_kit.gd")
@@ -124,24 +124,6 @@ func test_diffuse_light_shows_no_star() -> void:
 	for y in range(middle - 3, middle + 3):
 		for x in range(middle - 3, middle + 3):
 			_assert_close(image.get_pixel(x, y).g, 1.0, 0.005, "(%d, %d)" % [x, y])
-
-
-func test_occlusion() -> void:
-	var material := _material()
-	material.albedo_color = Color.WHITE
-	var quad := SphereImpostor.make_quad(material)
-	_view.add_child(quad)
-	await _light(Kit.constant(1.0))
-	material.ao_texture = _plain(Color(0.0, 0.6, 0.0))
-	material.ao_enabled = true
-	material.ao_texture_channel = BaseMaterial3D.TEXTURE_CHANNEL_GREEN
-	# Lagarde and de Rousiers 2014, listing 26, at normal incidence.
-	var kept := pow(1.0 + 0.6, pow(2.0, -16.0 * material.roughness - 1.0)) - 1.0 + 0.6
-	_assert_close(await _middle(), kept, 0.01, "metal")
-	material.metallic = 0.0
-	var table := _tables.table_at(LobeMaterial3D.widths_of(material.roughness, 0.0))
-	var share := Oracle.share(table, Vector3.BACK, 0.04, 1.0)
-	_assert_close(await _middle(), share * kept + (1.0 - share) * 0.6, 0.01, "plastic")
 
 
 func test_orm_and_its_parts_agree() -> void:

@@ -21,11 +21,12 @@ KNOWS = {
     # What a pyramid was made of and where it is; it does not know who shows it.
     "light": ("pyramid",),
     # Shows a light through a table. It preloads what its shader includes.
-    "material": ("table", "light", "shaders", "clear_coat", "diffuse"),
+    "material": ("table", "light", "shaders", "clear_coat", "diffuse", "occlusion"),
     # Parts that exports may leave out. They know those whom they serve, and these load them on demand.
     "clear_coat": (),
     "diffuse": (),
     "filters": (),
+    "occlusion": (),
     "compatibility": ("pyramid",),
     "rendering_device": ("pyramid",),
     "skies": ("light", "pyramid"),

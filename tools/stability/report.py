@@ -26,6 +26,7 @@ SHADER_TITLES = {
     "shader frame": "Tangent frames",
     "shader view": "View in tangent space",
     "shader widths": "Widths of a set",
+    "shader occlusion": "Occlusion of lobes",
     "shader look-up": "Lobes of any view",
     "shader reflection": "Reflected light",
     "shader coat": "Clear coat",

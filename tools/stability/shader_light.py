@@ -52,8 +52,9 @@ def look_up(cube, d, variance, values, angle, relative):
     return wanted, LEVEL_STEP * (off + steep * relative[0]) + 4 * U, LEVEL_STEP * steep * relative[1] + 2.5 * HALF
 
 
-def sums(table, view, cube, values, to_space, roughness=0.0, anisotropy=0.0):
-    """Light, grazing light, albedo, grazing albedo, each (exact, bound, bound of halves)."""
+def sums(table, view, cube, values, to_space, roughness=0.0, anisotropy=0.0, visible=None):
+    """Light, grazing light, albedo, grazing albedo, each (exact, bound, bound of halves). `visible` gives the share of a
+    lobe that gets light, with its bound and that of halves, from the lobe and its mean in the environment's space."""
     _o, lobes = expect_lobes(table, view, roughness, anisotropy)
     totals = [np.zeros(3, dtype=object) + mpf(0), np.zeros(3, dtype=object) + mpf(0), mpf(0), mpf(0)]
     off = np.zeros((4, 2))
@@ -61,7 +62,8 @@ def sums(table, view, cube, values, to_space, roughness=0.0, anisotropy=0.0):
         seen = to_space(lobe.mean)
         wanted, *bounds = look_up(cube, seen, lobe.variance, values, lobe.mean_bound, lobe.variance_bound)
         grazing = shader.schlick(lobe.cosine)
-        weighted = np.array([lobe.weight * t * w for t, w in zip(lobe.tint, wanted)], dtype=object)
+        share, *share_off = visible(lobe, seen) if visible else (mpf(1), 0.0, 0.0)
+        weighted = np.array([share * lobe.weight * t * w for t, w in zip(lobe.tint, wanted)], dtype=object)
         totals[0] += weighted
         totals[1] += grazing * weighted
         totals[2] += lobe.weight
@@ -74,7 +76,9 @@ def sums(table, view, cube, values, to_space, roughness=0.0, anisotropy=0.0):
             tint_off = (lobe.tint_bound, 12 * HALF * table.second)[n]
             w_off = lobe.weight_bound[n] + (3 * U * w if n == 0 else 0.0)
             light_off = w_off * tint * brightest + w * (tint * bounds[n] + tint_off * brightest)
-            off[:, n] += (light_off, x * light_off + x_off * w * tint * brightest, w_off, x * w_off + x_off * w)
+            light_off = float(share) * light_off + share_off[n] * w * tint * brightest
+            lit = float(share) * w * tint * brightest
+            off[:, n] += (light_off, x * light_off + x_off * lit, w_off, x * w_off + x_off * w)
     off[:, 0] += 2 * U * len(lobes) * np.array([float(max(totals[0])), float(max(totals[1])), *map(float, totals[2:])])
     return totals, off
 

@@ -10,9 +10,10 @@ import exact_shader as shader
 from about import About
 from exact import mpf, normalised, vector
 from probe_textures import LEVELS_SIZE
-from probes import DIVISION, U, Near, Probe, Texture, exp2_error, pow_error, single
+from probes import DIVISION, U, Near, Probe, Texture, single
 from shader_light import expect_diffuse, sums
 from shader_frames import orthonormal_frame, projection
+from shader_occlusion import hidden_odds, open_share, share_above
 from shader_points import light, turn, view_at
 from shader_tables import odd_table
 from shader_values import encode_error
@@ -22,15 +23,16 @@ LARGEST = 65504.0
 
 # Textures of one texel a row: where its four numbers are in the row, the uniform, the defines.
 MAPS = {
-    "orm": (44, "orm_texture", ("ORM_TEXTURE", "AO")),
-    "normal": (48, "normal_texture", ("NORMAL_TEXTURE",)),
+    "orm": (44, "orm_texture", ("ORM_TEXTURE", "AO", "OCCLUDED", "CONE")),
+    "normal": (48, "normal_texture", ("NORMAL_TEXTURE", "OCCLUDED", "HORIZON")),
     "flow": (52, "flowmap", ("FLOWMAP",)),
     "albedo": (56, "albedo_texture", ("ALBEDO_TEXTURE",)),
     "emission": (60, "emission_texture", ("EMISSION_TEXTURE",)),
     "coat": (64, "coat_texture", ("COAT_TEXTURE",)),
     "roughness": (68, "roughness_texture", ("ROUGHNESS_TEXTURE",)),
     "metallic": (72, "metallic_texture", ("METALLIC_TEXTURE",)),
-    "ao": (76, "ao_texture", ("AO", "AO_TEXTURE")),
+    "ao": (76, "ao_texture", ("AO", "AO_TEXTURE", "OCCLUDED", "CONE")),
+    "bent": (80, "bent_normal_texture", ("BENT_NORMAL",)),
 }
 COAT_STRENGTH = 0.75
 EMISSION_FACTOR = (2.0, 0.5, 1.0)
@@ -40,15 +42,6 @@ CHANNELS = {"roughness": (0, 1, 0, 0), "metallic": (0.5, 0.25, 0.25, 0), "ao": (
 def fresnel(first, second, f0, f90):
     """f0 a + (f90 - f0) b."""
     return f0 * first + (f90 - f0) * second
-
-
-def occlusion(cosine, ao, roughness, cosine_off):
-    """Lagarde and de Rousiers 2014, listing 26."""
-    base, exponent = cosine + ao, mpf(2) ** (-16 * roughness - 1)
-    power = base**exponent
-    relative = pow_error(float(base), float(exponent)) + float(exponent) * (cosine_off + U) / float(base)
-    relative += abs(math.log(float(base))) * float(exponent) * exp2_error(16 * float(roughness) + 1)
-    return About(power - 1 + ao, float(power) * relative + 2 * U).clamped(0, 1)
 
 
 @dataclass
@@ -83,7 +76,7 @@ class Surface:
         names += ["LOBELIGHT_TURNED"] * (self.turned is not None)
         if self.coat:
             names.append(f"LOBELIGHT_COAT_LOBES {self.coat.lobes}")
-        names += [f"LOBELIGHT_{define}" for name in self.maps for define in MAPS[name][2]]
+        names += dict.fromkeys(f"LOBELIGHT_{define}" for name in self.maps for define in MAPS[name][2])
         if self.maps:
             names += ["LOBELIGHT_TEXTURED", "LOBELIGHT_SAMPLING filter_nearest, repeat_disable"]
         return tuple(names)
@@ -143,6 +136,47 @@ def shading_frame(surface, row):
     return orthonormal_frame(normal, first, second)
 
 
+def bent_normal(surface, row):
+    """In view space, and the map's z."""
+    frame = orthonormal_frame(vector(row[:3]), vector(row[4:7]), vector(row[8:11]))
+    x, y = (2 * c - 1 for c in surface.texel(row, "bent")[:2])
+    x, y, z = normalised((x, y, shader.mp.sqrt(max(1 - x * x - y * y, mpf(0)))))
+    return normalised(shader.columns_times((*frame[:2], shading_frame(surface, row)[2]), (x, y, z))), z
+
+
+def occlusion_of(surface, row, ao, camera, normal, is_coat):
+    """What sums() asks, about a normal in the environment's space; coats lie on the mesh."""
+    is_bent = "bent" in surface.maps
+    is_occluded = "orm" in surface.maps or "ao" in surface.maps
+    if not is_occluded and "normal" not in surface.maps:
+        return None
+    bent, cosine = bent_normal(surface, row) if is_bent else (None, mpf(1))
+    open_to = shader.columns_times(camera, bent) if is_bent else normal
+    odds = hidden_odds(ao, cosine)
+    geometric = shader.columns_times(camera, vector(row[:3]))
+
+    def visible(lobe, mean):
+        share, offs = mpf(1), [0.0, 0.0]
+        parts = []
+        for n in (0, 1):
+            off = lobe.mean_bound[n] + (24 * U if n == 0 else 0.0), lobe.variance_bound[n]
+            here = []
+            if is_occluded:
+                here.append(open_share(is_bent, odds, shader.dot(open_to, mean), lobe.variance, *off))
+            if "normal" in surface.maps and not is_coat:
+                cosines = shader.dot(normal, mean), shader.dot(geometric, mean)
+                here.append(share_above(*cosines, lobe.variance, *off))
+            parts.append(here)
+        for n in (0, 1):
+            share = mpf(1)
+            for part, off in parts[n]:
+                offs[n] = offs[n] * float(part) + off * float(share) + U
+                share *= part
+        return share, *offs
+
+    return visible
+
+
 def channels(totals, off):
     """The four sums of a reflection, light by channel."""
     lights = [[About(totals[n][c], *off[n]) for c in range(3)] for n in (0, 1)]
@@ -171,7 +205,10 @@ def expect_material(surface, cube, values, row, renderer):
 
     ao, roughness, metallic = occlusion_roughness_metallic(surface, row)
     anisotropy = mpf(surface.anisotropy) * (surface.texel(row, "flow") or (0, 0, 0, 1))[3]
-    reflection = channels(*sums(surface.table, local, cube, values, to_environment, float(roughness), float(anisotropy)))
+    visible = occlusion_of(surface, row, ao, camera, shader.columns_times(camera, axes[2]), False)
+    reflection = channels(
+        *sums(surface.table, local, cube, values, to_environment, float(roughness), float(anisotropy), visible)
+    )
     base = [About(b, 2 * U) for b in vector(surface.albedo)]
     if texel := surface.texel(row, "albedo"):
         base = [b * decoded(x, renderer) for b, x in zip(base, texel)]
@@ -182,8 +219,6 @@ def expect_material(surface, cube, values, row, renderer):
     lost = About(
         1 / albedo.value - 1, albedo.off * slope + DIVISION / float(albedo.value) + 2 * U, albedo.half * slope
     )
-    o = shader.clamp_view(local)
-    occluded = occlusion(o[2], ao, roughness, 100 * U * 100 ** (float(local[2]) < 0.1)) if is_occluded else None
     diffuse = None
     if surface.dielectric:
         centre = shader.columns_times(camera, axes[2])
@@ -196,6 +231,9 @@ def expect_material(surface, cube, values, row, renderer):
             frame[1] = shader.cross(centre, frame[0])
         else:
             frame = [shader.columns_times(camera, axis) for axis in axes]
+        if "bent" in surface.maps:
+            bent = shader.columns_times(camera, bent_normal(surface, row)[0])
+            frame = orthonormal_frame(bent, frame[0], frame[1])
         diffuse = expect_diffuse(cube, values, [x for axis in frame for x in (*axis, 0)])
     coat = None
     if surface.coat:
@@ -204,7 +242,14 @@ def expect_material(surface, cube, values, row, renderer):
         coat_axes = (tangent, shader.cross(n, tangent), n)
         seen = tuple(shader.dot(shader.columns_times(camera, view), axis) for axis in coat_axes)
         coat = channels(
-            *sums(surface.coat, seen, cube, values, lambda d: shader.columns_times(coat_axes, d))
+            *sums(
+                surface.coat,
+                seen,
+                cube,
+                values,
+                lambda d: shader.columns_times(coat_axes, d),
+                visible=occlusion_of(surface, row, ao, camera, n, True),
+            )
         )
     checks = []
     for c in range(3):
@@ -219,9 +264,6 @@ def expect_material(surface, cube, values, row, renderer):
                 other = other * (1 + About(d0) * lost)
                 reflected = reflected * (1 + About(d0) * lost)
             radiance = other * About(1 - metallic, 6 * U) + radiance * About(metallic, 6 * U)
-        if occluded:
-            radiance = radiance * occluded
-        if surface.dielectric:
             left = (About(mpf(1)) - reflected).clamped(0, 1e9)
             scattered = base[c] * About(1 - metallic, 6 * U) * left
             if is_occluded:
@@ -308,6 +350,8 @@ def surfaces():
     plain = Surface(long_table, albedo=albedo, roughness=0.375, dielectric=dielectric, metallic=0.25)
     textured = Surface(round_table, coat, albedo, roughness=1.0, dielectric=dielectric, emitted=(0.125, 0.0, 0.0))
     textured.maps = ("albedo", "emission", "coat", "roughness", "metallic", "ao")
+    behind = Surface(long_table, coat, albedo, roughness=0.375, dielectric=dielectric, metallic=0.25)
+    behind.maps = ("normal", "ao", "bent")
     nine = set_levels(0.01, 1.0, 9)
     set_round = odd_table("table_material_set_round", 4, 8, 0, levels=nine, seed=303)
     set_long = odd_table("table_material_set_long", 4, 8, 4, levels=nine, seed=304)
@@ -327,6 +371,7 @@ def surfaces():
         ("everything", whole, "levels"),
         ("everything", whole, "directions"),
         ("with maps", mapped, "directions"),
+        ("behind walls", behind, "directions"),
         ("brushed dielectric", plain, "directions"),
     ]
 
@@ -341,7 +386,7 @@ def row_texture(rows, first):
 def probes(quick):
     """(tables, textures, probes)."""
     tables, textures, made = {}, {}, []
-    rng = np.random.default_rng(21)
+    rng, bends = np.random.default_rng(21), np.random.default_rng(22)
     for material, surface, cube in surfaces():
         tables[surface.table.name] = surface.table
         values = light(LEVELS_SIZE if cube == "levels" else 1, "disc", 0.0, cube, energy=0.75)
@@ -376,7 +421,7 @@ def probes(quick):
                 view = [sum(frame[n][axis] * x for n, x in enumerate(view_at(elevation, azimuth))) for axis in range(3)]
                 camera = [x for column in turn(camera_seed) for x in (*column, 0)]
                 texels = (*rng.uniform(0.2, 1.0, 4), *rng.uniform(0.3, 0.7, 4), *rng.uniform(0, 1, 3), rng.uniform(0.5, 1))
-                texels += tuple(rng.uniform(0.1, 1, 24))
+                texels += (*rng.uniform(0.1, 1, 24), *bends.uniform(0.3, 0.7, 4))
                 rows.append(
                     (*frame[2], 0, *frame[0], 0, *frame[1], 0, *view, 0, *camera, *projection(*shot), *texels)
                 )

@@ -10,6 +10,7 @@ import projects
 import shader_frames
 import shader_light
 import shader_material
+import shader_occlusion
 import shader_passes
 import shader_placed
 import shader_points
@@ -65,6 +66,7 @@ def make(quick, records):
         *shader_points.probes(quick),
         *shader_frames.probes(quick),
         *shader_widths.probes(quick),
+        *shader_occlusion.probes(quick),
         *shader_tables.probes(quick, tables),
         *(shader_tables.lobe_probe(table, title, quick, few=True) for table, title in fitted),
         *lit,

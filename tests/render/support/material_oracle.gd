@@ -47,26 +47,35 @@ static func reflected(
 	return gain * (f0 * sums[0] + (f90 - f0) * sums[1])
 
 
-## The share of light from all sides that the surface reflects towards `view`.
-static func share(table: LobeTable, view: Vector3, f0: float, f90: float) -> float:
-	var sums := _sums(table, Basis.IDENTITY, view)
-	return (1.0 + f0 * (1.0 / sums[2] - 1.0)) * (f0 * sums[2] + (f90 - f0) * sums[3])
+## The share of light from all sides that the surface reflects towards `view`. `visible` is the
+## share that a lobe gets, from its mean and sharpness; without it, all.
+static func share(
+	table: LobeTable, view: Vector3, f0: float, f90: float, visible := Callable()
+) -> float:
+	var sums := _sums(table, Basis.IDENTITY, view, visible)
+	return (1.0 + f0 * (1.0 / sums[2] - 1.0)) * (f0 * sums[4] + (f90 - f0) * sums[5])
 
 
-# Over the lobes: weight · light, weight · x · light, weight, weight · x, x = (1 - o.h)^5.
-static func _sums(table: LobeTable, frame: Basis, view: Vector3) -> PackedFloat64Array:
-	var sums := PackedFloat64Array([0.0, 0.0, 0.0, 0.0])
+# Over the lobes: weight · light, weight · x · light, weight, weight · x, x = (1 - o.h)^5; and the
+# last two with what is visible of each.
+static func _sums(
+	table: LobeTable, frame: Basis, view: Vector3, visible := Callable()
+) -> PackedFloat64Array:
+	var sums := PackedFloat64Array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 	var local := (frame.transposed() * view).normalized()
 	for lobe in table.lobes_at(local):
 		var mean: Vector3 = lobe["mean"]
 		var weight: float = lobe["weight"]
 		var left := Kit.mean_cosine(lobe["kappa"])
-		var seen := 1.0 + left * GRADIENT.dot(frame * mean)
+		var light_seen := 1.0 + left * GRADIENT.dot(frame * mean)
 		var x := pow(1.0 - clampf(local.dot((local + mean).normalized()), 0.0, 1.0), 5.0)
-		sums[0] += weight * seen
-		sums[1] += weight * x * seen
+		sums[0] += weight * light_seen
+		sums[1] += weight * x * light_seen
 		sums[2] += weight
 		sums[3] += weight * x
+		var seen: float = visible.call(mean, lobe["kappa"]) if visible.is_valid() else 1.0
+		sums[4] += weight * seen
+		sums[5] += weight * x * seen
 	return sums
 
 

@@ -14,6 +14,7 @@ const RUN_TIME := "res://addons/lobelight/runtime/"
 const DECLARATION := "metadata/lobelight_features"
 const COAT := "clear coats"
 const DIFFUSE := "diffuse light"
+const OCCLUSION := "occlusion of reflections"
 const WARNINGS := "warnings, which the editor shows"
 
 ## Folders of the run time that nothing but the feature needs. Each of them stays or goes whole.
@@ -23,17 +24,21 @@ const FOLDERS: Dictionary[String, String] = {
 	"conversion": OnDemand.CONVERSION,
 	"diffuse": DIFFUSE,
 	"filters": OnDemand.FILTERS,
+	"occlusion": OCCLUSION,
 	"probes": OnDemand.PLACES,
 	"rendering_device": OnDemand.RENDERING_DEVICE,
 	"skies": OnDemand.SKIES,
 	"warnings": WARNINGS,
 }
 ## What shaders that others share ask for where they are to draw the feature.
-const DEFINES: Dictionary[String, String] = {OnDemand.PLACES: "LOBELIGHT_PLACED"}
+const DEFINES: Dictionary[String, String] = {
+	OnDemand.PLACES: "LOBELIGHT_PLACED", OCCLUSION: "LOBELIGHT_OCCLUDED"
+}
 # What scripts and animations name where they may ask for it.
 const _WORDS: Dictionary[String, String] = {
 	COAT: "clearcoat\\w*",
 	DIFFUSE: "metallic|metallic_texture|orm_texture",
+	OCCLUSION: "ao_enabled|ao_texture|orm_texture|normal_enabled|normal_texture",
 	OnDemand.FILTERS: "filter",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
 	OnDemand.CONVERSION: "from_standard|to_standard|get_losses_from",
@@ -71,7 +76,7 @@ func _init() -> void:
 
 ## For what may set any property.
 func add_all(file: String) -> void:
-	for feature: String in [COAT, DIFFUSE, OnDemand.FILTERS, OnDemand.SKIES]:
+	for feature: String in [COAT, DIFFUSE, OCCLUSION, OnDemand.FILTERS, OnDemand.SKIES]:
 		add(feature, file)
 	resizing = "%s may change environments" % file
 
@@ -92,6 +97,8 @@ func look_at_material(file: String, material: LobeMaterial3D) -> void:
 		add(COAT, file)
 	if material.is_dielectric():
 		add(DIFFUSE, file)
+	if material.occludes_reflections():
+		add(OCCLUSION, file)
 
 
 ## A line of a script, or the path of an animation's track.

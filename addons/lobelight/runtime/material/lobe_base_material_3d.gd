@@ -71,6 +71,16 @@ var cull_mode: BaseMaterial3D.CullMode = BaseMaterial3D.CULL_BACK:
 		cull_mode = value
 		_queue_update()
 
+@export_group("Shading")
+## Whether reflections do without the occlusion that [member ao_texture], [member
+## bent_normal_texture] and [member normal_texture] make. Each lobe is occluded by its own direction
+## and width: what is near hides those more that point away from what is open, and the surface those
+## of a bent normal that point below the mesh's horizon. Diffuse light is occluded all the same.
+@export var disable_specular_occlusion := false:
+	set(value):
+		disable_specular_occlusion = value
+		_queue_update()
+
 @export_group("Vertex Color", "vertex_color_")
 ## Multiplies [member albedo_color] with the mesh's colours.
 @export var vertex_color_use_as_albedo := false:
@@ -197,6 +207,19 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 		normal_texture = value
 		_queue_update()
 
+@export_group("Bent Normal Map", "bent_normal_")
+## Whether [member bent_normal_texture] tells where the light comes from. The mesh needs tangents.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var bent_normal_enabled := false:
+	set(value):
+		bent_normal_enabled = value
+		_queue_update()
+## A tangent-space map of the mean directions of what the surface sees. Diffuse light arrives from
+## there, and with [member ao_enabled], reflections are occluded away from there.
+@export var bent_normal_texture: Texture2D:
+	set(value):
+		bent_normal_texture = value
+		_queue_update()
+
 @export_group("Clearcoat", "clearcoat_")
 ## Whether there is a clear lacquer over the material. It has lobes of its own, and costs as many
 ## fetches again.
@@ -261,8 +284,8 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 	set(value):
 		ao_light_affect = value
 		_queue_update()
-## The share of the surroundings that the surface sees. Reflections are occluded by it as well
-## (Lagarde and de Rousiers 2014).
+## The share of the surroundings that the surface sees. Reflections are occluded by it as well, see
+## [member disable_specular_occlusion].
 @export var ao_texture: Texture2D:
 	set(value):
 		ao_texture = value
@@ -323,6 +346,16 @@ func emits() -> bool:
 ## Whether normals are bent by a map.
 func has_normal_map() -> bool:
 	return normal_enabled and normal_texture != null
+
+
+## Whether a map tells where what the surface sees is.
+func has_bent_normals() -> bool:
+	return bent_normal_enabled and bent_normal_texture != null
+
+
+## Whether parts of the surface, or it itself, may hide light from its reflections.
+func occludes_reflections() -> bool:
+	return not disable_specular_occlusion and (is_occluded() or has_normal_map())
 
 
 ## Whether a texture occludes the surface.

@@ -24,7 +24,7 @@ extends LobeBaseMaterial3D
 ## [br]- [Decal]s change what the engine's lights show, and add their emission; the environment's
 ## light does not know of them.
 ## [br]- Compatibility, as of Godot 4.6, gives skinned meshes one and the same tangent everywhere:
-## anisotropy and normal maps need another renderer there.
+## anisotropy, normal and bent normal maps need another renderer there.
 ## [br][br]
 ## The shader is generated from the properties and shared by materials of the same kind; what is not
 ## used is not in it. It is not stored with the material, and neither [member ShaderMaterial.shader]
@@ -46,6 +46,7 @@ const _INCLUDES: Array[ShaderInclude] = [
 	preload("../shaders/lobe_table.gdshaderinc"),
 	preload("../shaders/material.gdshaderinc"),
 	preload("../shaders/material_inputs.gdshaderinc"),
+	preload("../occlusion/occlusion.gdshaderinc"),
 	preload("../shaders/specular.gdshaderinc"),
 	preload("../shaders/widths.gdshaderinc"),
 ]
@@ -139,12 +140,13 @@ func get_shader_code() -> String:
 	return code
 
 
-## Whether meshes need tangents for the material: with anisotropy and with normal maps. For a mesh
-## that has none the engine makes some up, across the normal; the inspector of its node warns of it.
+## Whether meshes need tangents for the material: with anisotropy and with maps of normals, also
+## bent ones. For a mesh that has none the engine makes some up, across the normal; the inspector of
+## its node warns of it.
 func needs_tangents() -> bool:
 	_mutex.lock()
 	_look()
-	var needed := has_normal_map() or not _choice.is_isotropic
+	var needed := has_normal_map() or has_bent_normals() or not _choice.is_isotropic
 	_mutex.unlock()
 	return needed
 

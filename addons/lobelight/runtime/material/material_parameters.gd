@@ -89,6 +89,8 @@ static func _apply_textures(surface: LobeBaseMaterial3D) -> void:
 		_give(material, &"lobelight_ao_light_affect", surface.ao_light_affect)
 	if _give_texture(material, &"lobelight_normal_texture", surface.normal_texture):
 		_give(material, &"lobelight_normal_scale", surface.normal_scale)
+	if surface.has_bent_normals():
+		_give_texture(material, &"lobelight_bent_normal_texture", surface.bent_normal_texture)
 	_give_texture(material, &"lobelight_flowmap", surface.anisotropy_flowmap)
 	_give_texture(material, &"lobelight_coat_texture", surface.clearcoat_texture)
 	_give_texture(material, &"lobelight_emission_texture", surface.emission_texture)

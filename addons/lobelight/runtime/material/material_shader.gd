@@ -139,6 +139,9 @@ static func _add_textures(
 				defines.append("AO_ON_UV2")
 	if surface.has_normal_map():
 		defines.append("NORMAL_TEXTURE")
+	if surface.has_bent_normals():
+		defines.append("BENT_NORMAL")
+	_add_occlusion(surface, defines)
 	if surface.anisotropy_flowmap != null and not choice.is_isotropic:
 		defines.append("FLOWMAP")
 	if surface.clearcoat_texture != null and choice.coat != null:
@@ -152,3 +155,14 @@ static func _add_textures(
 	defines.append("SAMPLING %s, %s" % [_FILTERS[surface.texture_filter], repeat])
 	if surface.uv1_scale != Vector3.ONE or surface.uv1_offset != Vector3.ZERO:
 		defines.append("UV_TRANSFORM")
+
+
+# Of reflections, see occlusion/occlusion.gdshaderinc.
+static func _add_occlusion(surface: LobeBaseMaterial3D, defines: PackedStringArray) -> void:
+	if not surface.occludes_reflections():
+		return
+	defines.append("OCCLUDED")
+	if surface.is_occluded():
+		defines.append("CONE")
+	if surface.has_normal_map():
+		defines.append("HORIZON")
