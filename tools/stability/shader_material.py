@@ -10,7 +10,7 @@ import exact_shader as shader
 from about import About
 from exact import mpf, normalised, vector
 from probe_textures import LEVELS_SIZE
-from probes import DIVISION, U, Near, Probe, Texture, single
+from probes import DIVISION, U, Near, Probe, Texture, pow_error, single
 from shader_light import expect_diffuse, sums
 from shader_frames import orthonormal_frame, projection
 from shader_occlusion import hidden_odds, open_share, share_above
