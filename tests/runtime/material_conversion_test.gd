@@ -1,9 +1,6 @@
 extends GdUnitTestSuite
 ## Conversion between Godot's materials and LobeMaterial3D.
 
-const ConversionPlugin := preload("res://addons/lobelight/editor/material_conversion_plugin.gd")
-const SceneMenu := preload("res://addons/lobelight/editor/scene_conversion_menu.gd")
-
 
 func _texture() -> Texture2D:
 	return ImageTexture.create_from_image(Image.create_empty(2, 2, false, Image.FORMAT_RGB8))
@@ -157,26 +154,6 @@ func test_a_table_gives_its_widths() -> void:
 	var back := made.to_standard()
 	assert_float(back.roughness).is_equal_approx(0.5, 1e-5)
 	assert_bool(back.anisotropy_enabled).is_false()
-
-
-func test_scene_menu_finds_what_nodes_draw() -> void:
-	var shared := StandardMaterial3D.new()
-	var root: Node3D = auto_free(Node3D.new())
-	var meshes: Array[MeshInstance3D] = []
-	for i in 3:
-		meshes.append(MeshInstance3D.new())
-		meshes[i].mesh = BoxMesh.new()
-		root.add_child(meshes[i])
-	(meshes[0].mesh as BoxMesh).material = shared
-	meshes[1].material_override = shared
-	(meshes[2].mesh as BoxMesh).material = LobeMaterial3D.new()
-	var nodes: Array[Node] = [root, meshes[0]]
-	var changes := SceneMenu.find_changes(nodes)
-	assert_int(changes.size()).is_equal(2)
-	assert_object(changes[0][0]).is_same(meshes[0])
-	assert_str(changes[0][1]).is_equal("surface_material_override/0")
-	assert_str(changes[1][1]).is_equal("material_override")
-	assert_object(changes[0][2]).is_same(changes[1][2])
 
 
 func _assert_same(a: Material, b: Material, except: PackedStringArray = []) -> void:

@@ -5,7 +5,6 @@ extends GdUnitTestSuite
 const BakeQueue := preload("res://addons/lobelight/editor/bake/bake_queue.gd")
 const Kit := preload("res://tests/editor/editor_kit.gd")
 const Recipe := preload("res://addons/lobelight/editor/bake/bake_recipe.gd")
-const SceneMenu := preload("res://addons/lobelight/editor/scene_conversion_menu.gd")
 const SceneReport := preload("res://addons/lobelight/editor/menu/scene_report.gd")
 const SceneUsage := preload("res://addons/lobelight/editor/menu/scene_usage.gd")
 const SceneWarnings := preload("res://addons/lobelight/editor/warnings/scene_warnings.gd")
@@ -233,97 +232,6 @@ func test_a_mesh_without_tangents_is_told_so_in_the_theme_s_colour() -> void:
 	EditorInterface.inspect_object(null)
 
 
-func test_a_conversion_says_what_it_did_and_what_light_is_missing() -> void:
-	var root := _make_scene()
-	assert_str(SceneMenu.describe(SceneMenu.find_changes([root]), root)).contains("no material")
-	var shared := StandardMaterial3D.new()
-	for part in 2:
-		var sphere := MeshInstance3D.new()
-		sphere.material_override = shared
-		root.add_child(sphere)
-	var changes := SceneMenu.find_changes([root])
-	var text := SceneMenu.describe(changes, root)
-	assert_str(text).starts_with("Converted 1 material.").contains("Add a LobeEnvironment3D")
-	root.add_child(LobeEnvironment3D.new())
-	assert_str(SceneMenu.describe(changes, root)).is_equal("Converted 1 material.")
-
-
-# A scene with an instance of another that has an instance in it, converted by the menu and saved.
-func test_a_conversion_reaches_instances_and_is_saved() -> void:
-	var plugin := Kit.get_plugin(get_tree())
-	var menu: SceneMenu = plugin._scene_menu
-	var inner: Node3D = auto_free(Node3D.new())
-	inner.name = "Inner"
-	var ball := MeshInstance3D.new()
-	ball.name = "Ball"
-	ball.mesh = SphereMesh.new()
-	ball.mesh.material = StandardMaterial3D.new()
-	inner.add_child(ball)
-	ball.owner = inner
-	var path := _save(inner, "res://inner.tscn")
-	for name: String in ["Middle", "Outer"]:
-		var outer: Node3D = auto_free(Node3D.new())
-		outer.name = name
-		for index in 2:
-			var instance := (load(path) as PackedScene).instantiate()
-			instance.name = "Instance%d" % index
-			outer.add_child(instance)
-			instance.owner = outer
-		path = _save(outer, "res://%s.tscn" % name.to_lower())
-	EditorInterface.open_scene_from_path(path)
-	await await_idle_frame()
-	var root := EditorInterface.get_edited_scene_root()
-	var converted := root.get_node("Instance0/Instance1/Ball") as MeshInstance3D
-	var added := MeshInstance3D.new()
-	added.material_override = StandardMaterial3D.new()
-	converted.add_child(added)
-	await await_idle_frame()
-	await await_idle_frame()
-	assert_bool(_scene_tree_lists("Ball")).is_false()
-	menu.convert_nodes([root.get_node("Instance0/Instance1")])
-	await await_idle_frame()
-	await await_idle_frame()
-	assert_bool(_scene_tree_lists("Ball")).is_true()
-	# What a script has added is in no file.
-	assert_object(added.material_override).is_instanceof(StandardMaterial3D)
-	assert_object(converted.get_active_material(0)).is_instanceof(LobeMaterial3D)
-	var saved := PackedScene.new()
-	saved.pack(root)
-	var loaded: Node = auto_free(saved.instantiate())
-	for instance: String in ["Instance0/Instance0", "Instance0/Instance1", "Instance1/Instance1"]:
-		var material := (loaded.get_node(instance + "/Ball") as MeshInstance3D).get_active_material(
-			0
-		)
-		assert_bool(material is LobeMaterial3D).is_equal(instance == "Instance0/Instance1")
-	var history := plugin.get_undo_redo()
-	var steps := history.get_history_undo_redo(history.get_object_history_id(root))
-	steps.undo()
-	assert_object(converted.get_active_material(0)).is_instanceof(StandardMaterial3D)
-	assert_bool(root.is_editable_instance(root.get_node("Instance0"))).is_false()
-	# The editor goes by its own count of the steps.
-	steps.redo()
-
-
-# Whether a node is among those that the editor's scene tree shows.
-func _scene_tree_lists(name: String) -> bool:
-	var docks := EditorInterface.get_base_control().find_children("*", "SceneTreeDock", true, false)
-	for tree: Tree in docks[0].find_children("*", "Tree", true, false):
-		var item := tree.get_root()
-		while item != null:
-			if item.get_text(0) == name:
-				return true
-			item = item.get_next_in_tree()
-	return false
-
-
-func _save(root: Node, path: String) -> String:
-	var packed := PackedScene.new()
-	packed.pack(root)
-	ResourceSaver.save(packed, path)
-	packed.take_over_path(path)
-	return path
-
-
 func test_environments_are_found_in_the_tree_and_outside() -> void:
 	var root := _make_scene()
 	var environment := LobeEnvironment3D.new()
@@ -388,7 +296,7 @@ func test_the_menu_is_under_tools_once() -> void:
 	Kit.get_plugin(get_tree())
 	var menus := Kit.find_all(EditorInterface.get_base_control(), ToolsMenu)
 	assert_int(menus.size()).is_equal(1)
-	assert_int((menus[0] as PopupMenu).item_count).is_equal(4)
+	assert_int((menus[0] as PopupMenu).item_count).is_equal(6)
 
 
 func test_the_resources_are_offered_where_the_guide_says() -> void:

@@ -2,6 +2,7 @@
 extends RefCounted
 ## What a scene has of Lobelight: its materials, their tables, its environments and its probes.
 
+const Slots := preload("../conversion/material_slots.gd")
 const TangentWarning := preload("../tangent_warning.gd")
 
 ## The materials, and the nodes that show them.
@@ -56,21 +57,26 @@ func _look_at(node: Node) -> void:
 		_look_at(child)
 
 
-## The LobeMaterial3Ds that a node is drawn with.
+## The LobeMaterial3Ds that a node is drawn with, in next passes too.
 static func find_materials(node: Node) -> Array[LobeMaterial3D]:
 	var found: Array[LobeMaterial3D] = []
-	var candidates: Array[Material] = []
-	var geometry := node as GeometryInstance3D
-	if geometry != null:
-		candidates = [geometry.material_override, geometry.material_overlay]
+	for material in _find_first_passes(node):
+		while material != null:
+			if material is LobeMaterial3D and material not in found:
+				found.append(material)
+			material = material.next_pass
+	return found
+
+
+static func _find_first_passes(node: Node) -> Array[Material]:
+	var materials: Array[Material] = []
 	var instance := node as MeshInstance3D
 	if instance != null and instance.mesh != null:
+		materials = [instance.material_override, instance.material_overlay]
 		for surface in instance.mesh.get_surface_count():
-			candidates.append(instance.get_active_material(surface))
-	elif geometry != null and "material" in node:
-		# CSG shapes.
-		candidates.append(node.get("material"))
-	for material in candidates:
-		if material is LobeMaterial3D and material not in found:
-			found.append(material)
-	return found
+			# An override hides the others.
+			materials.append(instance.get_active_material(surface))
+		return materials
+	for slot in Slots.of(node):
+		materials.append_array(slot.materials)
+	return materials

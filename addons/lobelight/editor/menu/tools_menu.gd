@@ -2,13 +2,13 @@
 extends PopupMenu
 ## Project > Tools > Lobelight: what concerns a whole scene.
 
-enum Item { BAKE, REPORT, CONVERT, BAKE_PROBES }
+enum Item { BAKE, REPORT, CONVERT, BAKE_PROBES, CONVERT_BACK, ASK_TO_CONVERT }
 
 const BakeQueue := preload("../bake/bake_queue.gd")
 const LightBakes := preload("../probes/light_bakes.gd")
 const LightFile := preload("../probes/light_file.gd")
 const Recipe := preload("../bake/bake_recipe.gd")
-const SceneConversionMenu := preload("../scene_conversion_menu.gd")
+const SceneConversionMenu := preload("../conversion/scene_conversion_menu.gd")
 const SceneReport := preload("scene_report.gd")
 const SceneUsage := preload("scene_usage.gd")
 const Wording := preload("../wording.gd")
@@ -33,6 +33,8 @@ func _init(
 	add_item("Bake All Probes in This Scene", Item.BAKE_PROBES)
 	add_item("Report What This Scene Uses …", Item.REPORT)
 	add_item("Convert Materials of This Scene to LobeMaterial3D", Item.CONVERT)
+	add_item("Convert Materials of This Scene to StandardMaterial3D", Item.CONVERT_BACK)
+	add_item("Convert Materials of This Scene …", Item.ASK_TO_CONVERT)
 	id_pressed.connect(choose)
 
 
@@ -56,6 +58,11 @@ func choose(item: int) -> void:
 		Item.CONVERT:
 			if root != null:
 				_conversion.convert_nodes([root])
+		Item.CONVERT_BACK:
+			if root != null:
+				_conversion.convert_back([root])
+		Item.ASK_TO_CONVERT:
+			_conversion.ask([root])
 
 
 ## Bakes the tables of the scene's materials of which it is known what from; how many these are.

@@ -7,6 +7,7 @@ const ProbeWarnings := preload("../../runtime/warnings/probe_warnings.gd")
 const TableChoice := preload("../../runtime/material/table_choice.gd")
 const WidthsTexture := preload("../../runtime/table/widths_texture.gd")
 const SceneUsage := preload("../menu/scene_usage.gd")
+const TextureWarnings := preload("texture_warnings.gd")
 
 
 ## All that concerns a scene.
@@ -66,4 +67,5 @@ static func _of_properties(material: LobeMaterial3D) -> PackedStringArray:
 		and material.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_HASH
 	):
 		warnings.append("Compatibility has no alpha hash and blends instead: take Alpha Scissor.")
+	warnings.append_array(TextureWarnings.of(material))
 	return warnings
