@@ -16,6 +16,11 @@ const FEATURES: PackedStringArray = [
 	"conversion/material_conversion.gd",
 	"probes/placed_lights.gd",
 	"occlusion/occlusion.gdshaderinc",
+	"detail/detail.gdshaderinc",
+	"msdf/msdf.gdshaderinc",
+	"parallax/parallax.gdshaderinc",
+	"triplanar/triplanar.gdshaderinc",
+	"vertices/vertices.gdshaderinc",
 ]
 
 ## A scene, and which of FEATURES it needs.
@@ -35,13 +40,20 @@ const ASKING := [
 	["$Light.filter = 1", [2]],
 	["$Light.panorama = null", [3, 4]],
 	["add_child(LobeEnvironment3D.new())", [3, 4]],
-	["material.set(property, 0.1)", [0, 1, 2, 3, 4, 7]],
+	["material.set(property, 0.1)", [0, 1, 2, 3, 4, 7, 8, 9, 10, 11, 12]],
 	["LobeMaterial3D.get_losses_from(material)", [5]],
 	['material.call("to_standard")', [5]],
 	["add_child(LobeProbe3D.new())", [3, 4, 6]],
 	["viewport.own_world_3d = true", [6]],
 	["$Light.fade_time = 2.0", [6]],
 	["viewport.world_2d = null", []],
+	["material.detail_enabled = true", [8]],
+	["material.albedo_texture_msdf = true", [9]],
+	["material.heightmap_texture = load(path)", [10]],
+	["material.uv2_triplanar = true", [11]],
+	["material.uv1_world_triplanar = true", [11]],
+	["material.grow = true", [12]],
+	["material.billboard_mode = 1", [12]],
 ]
 
 ## Rendering methods of a project and whether the engine may fall back to OpenGL, and which cubes an

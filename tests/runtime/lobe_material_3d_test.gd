@@ -9,13 +9,25 @@ const FEATURES: PackedStringArray = [
 	"AO",
 	"AO_TEXTURE",
 	"COAT_LOBES",
+	"DEEP_PARALLAX",
+	"DETAIL",
+	"DETAIL_ALBEDO",
+	"DETAIL_MASK",
+	"DETAIL_NORMAL",
+	"DETAIL_ON_UV2",
 	"DIELECTRIC",
 	"EMISSION",
+	"FACING",
 	"FLOWMAP",
+	"GROW",
 	"NORMAL_TEXTURE",
+	"PARALLAX",
 	"ROUGHNESS_TEXTURE",
+	"TRIPLANAR",
+	"UV2_TRIPLANAR",
 	"UV_TRANSFORM",
 	"VERTEX_COLOUR",
+	"VERTICES",
 ]
 const LightRegistry := preload("res://addons/lobelight/runtime/light/light_registry.gd")
 
@@ -63,6 +75,19 @@ func test_variants_follow_the_properties() -> void:
 	material.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA_HASH
 	material.vertex_color_use_as_albedo = true
 	material.uv1_scale = Vector3(2.0, 2.0, 1.0)
+	material.uv2_triplanar = true
+	material.detail_enabled = true
+	material.detail_albedo = _texture()
+	material.detail_mask = _texture()
+	material.detail_normal = _texture()
+	material.detail_uv_layer = BaseMaterial3D.DETAIL_UV_2
+	material.heightmap_enabled = true
+	material.heightmap_texture = _texture()
+	material.heightmap_deep_parallax = true
+	material.billboard_mode = BaseMaterial3D.BILLBOARD_ENABLED
+	material.grow = true
+	material.use_particle_trails = true
+	assert_str(material.get_shader_code()).contains("particle_trails")
 	for feature: String in FEATURES:
 		assert_str(material.get_shader_code()).contains("#define LOBELIGHT_" + feature)
 	material.emission_energy_multiplier = 0.0

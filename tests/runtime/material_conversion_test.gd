@@ -45,6 +45,49 @@ func _full_material() -> StandardMaterial3D:
 	source.vertex_color_use_as_albedo = true
 	source.uv1_scale = Vector3(2.0, 3.0, 1.0)
 	source.uv1_offset = Vector3(0.5, 0.25, 0.0)
+	source.uv1_triplanar = true
+	source.uv1_triplanar_sharpness = 2.0
+	source.uv1_world_triplanar = true
+	source.uv2_scale = Vector3(3.0, 2.0, 1.0)
+	source.uv2_offset = Vector3(0.25, 0.5, 0.75)
+	source.uv2_triplanar = true
+	source.uv2_triplanar_sharpness = 3.0
+	source.uv2_world_triplanar = true
+	source.albedo_texture_force_srgb = true
+	source.albedo_texture_msdf = true
+	source.msdf_pixel_range = 6.0
+	source.msdf_outline_size = 2.0
+	source.emission_on_uv2 = true
+	source.heightmap_enabled = true
+	source.heightmap_scale = 3.0
+	source.heightmap_deep_parallax = true
+	source.heightmap_min_layers = 4
+	source.heightmap_max_layers = 20
+	source.heightmap_flip_tangent = true
+	source.heightmap_flip_binormal = true
+	source.heightmap_texture = _texture()
+	source.heightmap_flip_texture = true
+	source.detail_enabled = true
+	source.detail_mask = _texture()
+	source.detail_blend_mode = BaseMaterial3D.BLEND_MODE_MUL
+	source.detail_uv_layer = BaseMaterial3D.DETAIL_UV_2
+	source.detail_albedo = _texture()
+	source.detail_normal = _texture()
+	source.billboard_mode = BaseMaterial3D.BILLBOARD_PARTICLES
+	source.billboard_keep_scale = true
+	source.particles_anim_h_frames = 3
+	source.particles_anim_v_frames = 4
+	source.particles_anim_loop = true
+	source.grow = true
+	source.grow_amount = 0.2
+	source.fixed_size = true
+	source.use_point_size = true
+	source.point_size = 5.0
+	source.use_particle_trails = true
+	source.use_z_clip_scale = true
+	source.z_clip_scale = 0.5
+	source.use_fov_override = true
+	source.fov_override = 50.0
 	source.texture_filter = BaseMaterial3D.TEXTURE_FILTER_NEAREST
 	source.texture_repeat = false
 	source.next_pass = StandardMaterial3D.new()
@@ -80,7 +123,9 @@ func test_features_that_are_off_stay_off() -> void:
 		&"anisotropy_enabled",
 		&"ao_enabled",
 		&"clearcoat_enabled",
+		&"detail_enabled",
 		&"emission_enabled",
+		&"heightmap_enabled",
 		&"normal_enabled"
 	]:
 		source.set(feature, false)
@@ -128,12 +173,11 @@ func test_losses_are_named() -> void:
 	var source := StandardMaterial3D.new()
 	assert_array(LobeMaterial3D.get_losses_from(source)).is_empty()
 	source.rim_enabled = true
-	source.uv1_triplanar = true
 	source.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
 	# Nobody sees it: refraction is off.
 	source.refraction_scale = 0.7
 	assert_array(LobeMaterial3D.get_losses_from(source)).contains_exactly_in_any_order(
-		["rim_enabled", "uv1_triplanar", "shading_mode"]
+		["rim_enabled", "shading_mode"]
 	)
 
 

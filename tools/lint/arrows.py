@@ -21,10 +21,18 @@ KNOWS = {
     # What a pyramid was made of and where it is; it does not know who shows it.
     "light": ("pyramid",),
     # Shows a light through a table. It preloads what its shader includes.
-    "material": ("table", "light", "shaders", "clear_coat", "diffuse", "occlusion"),
+    "material": (
+        *("table", "light", "shaders", "clear_coat", "diffuse", "occlusion"),
+        *("detail", "msdf", "parallax", "triplanar", "vertices"),
+    ),
     # Parts that exports may leave out. They know those whom they serve, and these load them on demand.
     "clear_coat": (),
+    "detail": (),
     "diffuse": (),
+    "msdf": (),
+    "parallax": (),
+    "triplanar": (),
+    "vertices": (),
     "filters": (),
     "occlusion": (),
     "compatibility": ("pyramid",),

@@ -15,6 +15,11 @@ const DECLARATION := "metadata/lobelight_features"
 const COAT := "clear coats"
 const DIFFUSE := "diffuse light"
 const OCCLUSION := "occlusion of reflections"
+const DETAIL := "detail textures"
+const MSDF := "distance fields"
+const PARALLAX := "height maps"
+const TRIPLANAR := "triplanar mapping"
+const VERTICES := "billboards and moved vertices"
 const WARNINGS := "warnings, which the editor shows"
 
 ## Folders of the run time that nothing but the feature needs. Each of them stays or goes whole.
@@ -22,17 +27,28 @@ const FOLDERS: Dictionary[String, String] = {
 	"clear_coat": COAT,
 	"compatibility": OnDemand.COMPATIBILITY,
 	"conversion": OnDemand.CONVERSION,
+	"detail": DETAIL,
 	"diffuse": DIFFUSE,
 	"filters": OnDemand.FILTERS,
 	"occlusion": OCCLUSION,
+	"msdf": MSDF,
+	"parallax": PARALLAX,
 	"probes": OnDemand.PLACES,
 	"rendering_device": OnDemand.RENDERING_DEVICE,
 	"skies": OnDemand.SKIES,
+	"triplanar": TRIPLANAR,
+	"vertices": VERTICES,
 	"warnings": WARNINGS,
 }
 ## What shaders that others share ask for where they are to draw the feature.
 const DEFINES: Dictionary[String, String] = {
-	OnDemand.PLACES: "LOBELIGHT_PLACED", OCCLUSION: "LOBELIGHT_OCCLUDED"
+	DETAIL: "LOBELIGHT_DETAIL",
+	MSDF: "LOBELIGHT_MSDF",
+	PARALLAX: "LOBELIGHT_PARALLAX",
+	OCCLUSION: "LOBELIGHT_OCCLUDED",
+	OnDemand.PLACES: "LOBELIGHT_PLACED",
+	TRIPLANAR: "LOBELIGHT_TRIPLANAR",
+	VERTICES: "LOBELIGHT_VERTICES",
 }
 # What scripts and animations name where they may ask for it.
 const _WORDS: Dictionary[String, String] = {
@@ -43,7 +59,20 @@ const _WORDS: Dictionary[String, String] = {
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
 	OnDemand.CONVERSION: "from_standard|to_standard|get_losses_from",
 	OnDemand.PLACES: "LobeProbe3D|own_world_3d|world_3d|fade_time",
+	DETAIL: "detail_\\w+",
+	MSDF: "albedo_texture_msdf|msdf_\\w+",
+	PARALLAX: "heightmap_\\w+",
+	TRIPLANAR: "uv[12]_(world_)?triplanar\\w*",
+	VERTICES:
+	(
+		"billboard_\\w+|particles_anim_\\w+|grow|grow_amount|fixed_size|(use_)?point_size"
+		+ "|(use_)?z_clip_scale|(use_)?fov_override"
+	),
 }
+# What a material has that a script gives its properties.
+const _OF_MATERIALS: PackedStringArray = [
+	COAT, DETAIL, DIFFUSE, MSDF, OCCLUSION, PARALLAX, TRIPLANAR, VERTICES
+]
 const _METHOD := "rendering/renderer/rendering_method"
 const _FALLBACK := "rendering/rendering_device/fallback_to_opengl3"
 
@@ -76,8 +105,10 @@ func _init() -> void:
 
 ## For what may set any property.
 func add_all(file: String) -> void:
-	for feature: String in [COAT, DIFFUSE, OCCLUSION, OnDemand.FILTERS, OnDemand.SKIES]:
+	for feature in _OF_MATERIALS:
 		add(feature, file)
+	add(OnDemand.FILTERS, file)
+	add(OnDemand.SKIES, file)
 	resizing = "%s may change environments" % file
 
 
@@ -99,6 +130,16 @@ func look_at_material(file: String, material: LobeMaterial3D) -> void:
 		add(DIFFUSE, file)
 	if material.occludes_reflections():
 		add(OCCLUSION, file)
+	if material.detail_enabled:
+		add(DETAIL, file)
+	if material.shows_msdf():
+		add(MSDF, file)
+	if material.has_relief():
+		add(PARALLAX, file)
+	if material.makes_tangents():
+		add(TRIPLANAR, file)
+	if material.moves_vertices():
+		add(VERTICES, file)
 
 
 ## A line of a script, or the path of an animation's track.

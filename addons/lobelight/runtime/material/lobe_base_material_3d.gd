@@ -17,6 +17,26 @@ const _FILTERS := (
 	"Nearest,Linear,Nearest Mipmap,Linear Mipmap,Nearest Mipmap Anisotropic,"
 	+ "Linear Mipmap Anisotropic"
 )
+const _DETAIL_BLEND_MODES := "Mix,Add,Subtract,Multiply"
+const _UV_LAYERS := "UV1,UV2"
+const _BILLBOARD_MODES := "Disabled,Enabled,Y-Billboard,Particle Billboard"
+
+# What turns a property on.
+const _SWITCHES: Dictionary[String, StringName] = {
+	"billboard_keep_scale": &"billboard_mode",
+	"fov_override": &"use_fov_override",
+	"grow_amount": &"grow",
+	"heightmap_max_layers": &"heightmap_deep_parallax",
+	"heightmap_min_layers": &"heightmap_deep_parallax",
+	"msdf_outline_size": &"albedo_texture_msdf",
+	"msdf_pixel_range": &"albedo_texture_msdf",
+	"point_size": &"use_point_size",
+	"uv1_triplanar_sharpness": &"uv1_triplanar",
+	"uv1_world_triplanar": &"uv1_triplanar",
+	"uv2_triplanar_sharpness": &"uv2_triplanar",
+	"uv2_world_triplanar": &"uv2_triplanar",
+	"z_clip_scale": &"use_z_clip_scale",
+}
 
 const Widths := preload("../table/widths.gd")
 
@@ -107,6 +127,18 @@ var cull_mode: BaseMaterial3D.CullMode = BaseMaterial3D.CULL_BACK:
 	set(value):
 		albedo_texture = value
 		_queue_update()
+## Decodes [member albedo_texture] from sRGB, though it says that it is linear.
+@export var albedo_texture_force_srgb := false:
+	set(value):
+		albedo_texture_force_srgb = value
+		_queue_update()
+## Takes [member albedo_texture] for a signed distance field in several channels, as those of fonts
+## are. It has no effect with [member uv1_triplanar].
+@export var albedo_texture_msdf := false:
+	set(value):
+		albedo_texture_msdf = value
+		notify_property_list_changed()
+		_queue_update()
 
 @export_group("ORM", "orm_")
 ## Factors of [member roughness] and [member metallic] in green and blue, and with [member
@@ -183,6 +215,11 @@ var roughness_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TE
 var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION_OP_ADD:
 	set(value):
 		emission_operator = value
+		_queue_update()
+## Whether [member emission_texture] lies on the mesh's second texture coordinates.
+@export var emission_on_uv2 := false:
+	set(value):
+		emission_on_uv2 = value
 		_queue_update()
 ## More light that the surface sends out.
 @export var emission_texture: Texture2D:
@@ -302,16 +339,150 @@ var ao_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_C
 		ao_texture_channel = value
 		_queue_update()
 
+@export_group("Height", "heightmap_")
+## Whether [member heightmap_texture] moves textures as a relief would. The mesh needs tangents. It
+## has no effect with [member uv1_triplanar].
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var heightmap_enabled := false:
+	set(value):
+		heightmap_enabled = value
+		_queue_update()
+## How deep the relief is, in hundredths of the texture's breadth.
+@export_range(-16.0, 16.0, 0.001) var heightmap_scale := 5.0:
+	set(value):
+		heightmap_scale = value
+		_queue_update()
+## Whether the view is followed through the relief, layer by layer, so that high places cover low
+## ones. It costs a fetch a layer.
+@export var heightmap_deep_parallax := false:
+	set(value):
+		heightmap_deep_parallax = value
+		notify_property_list_changed()
+		_queue_update()
+## Layers where the surface is seen from the front.
+@export_range(1, 64, 1) var heightmap_min_layers := 8:
+	set(value):
+		heightmap_min_layers = value
+		_queue_update()
+## Layers where the surface is seen from the side.
+@export_range(1, 64, 1) var heightmap_max_layers := 32:
+	set(value):
+		heightmap_max_layers = value
+		_queue_update()
+## Whether the mesh's tangents point the other way.
+@export var heightmap_flip_tangent := false:
+	set(value):
+		heightmap_flip_tangent = value
+		_queue_update()
+## Whether the mesh's bitangents point the other way.
+@export var heightmap_flip_binormal := false:
+	set(value):
+		heightmap_flip_binormal = value
+		_queue_update()
+## The heights, in red: white is as high as the mesh. Without it, [member heightmap_enabled] has no
+## effect.
+@export var heightmap_texture: Texture2D:
+	set(value):
+		heightmap_texture = value
+		_queue_update()
+## Whether the texture has depths in place of heights.
+@export var heightmap_flip_texture := false:
+	set(value):
+		heightmap_flip_texture = value
+		_queue_update()
+
+@export_group("Detail", "detail_")
+## Whether the detail textures lie over the others.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var detail_enabled := false:
+	set(value):
+		detail_enabled = value
+		_queue_update()
+## Where there is detail, in red; without it, everywhere. It lies on the first texture
+## coordinates.
+@export var detail_mask: Texture2D:
+	set(value):
+		detail_mask = value
+		_queue_update()
+## How [member detail_albedo] is put over the colour.
+@export_custom(PROPERTY_HINT_ENUM, _DETAIL_BLEND_MODES)
+var detail_blend_mode: BaseMaterial3D.BlendMode = BaseMaterial3D.BLEND_MODE_MIX:
+	set(value):
+		detail_blend_mode = value
+		_queue_update()
+## The texture coordinates of [member detail_albedo] and [member detail_normal].
+@export_custom(PROPERTY_HINT_ENUM, _UV_LAYERS)
+var detail_uv_layer: BaseMaterial3D.DetailUV = BaseMaterial3D.DETAIL_UV_1:
+	set(value):
+		detail_uv_layer = value
+		_queue_update()
+## The detail's colour; its alpha is how much of it, and of [member detail_normal], there is.
+## Without it, white.
+@export var detail_albedo: Texture2D:
+	set(value):
+		detail_albedo = value
+		_queue_update()
+## A tangent-space normal map, in place of [member normal_texture] where there is detail. Without
+## it, flat.
+@export var detail_normal: Texture2D:
+	set(value):
+		detail_normal = value
+		_queue_update()
+
 @export_group("UV1", "uv1_")
-## A factor for the texture coordinates.
+## A factor for the texture coordinates. The third is for [member uv1_triplanar].
 @export_custom(PROPERTY_HINT_LINK, "") var uv1_scale := Vector3.ONE:
 	set(value):
 		uv1_scale = value
 		_queue_update()
-## Added to the texture coordinates after their scale.
+## Added to the texture coordinates after their scale. The third is for [member uv1_triplanar].
 @export var uv1_offset := Vector3.ZERO:
 	set(value):
 		uv1_offset = value
+		_queue_update()
+## Whether textures are laid on the surface along its three axes, and mixed by the normal, in place
+## of by texture coordinates. It costs three fetches for one, and gives meshes tangents of its own.
+@export var uv1_triplanar := false:
+	set(value):
+		uv1_triplanar = value
+		notify_property_list_changed()
+		_queue_update()
+## How quickly the three change into one another.
+@export_exp_easing var uv1_triplanar_sharpness := 1.0:
+	set(value):
+		uv1_triplanar_sharpness = value
+		_queue_update()
+## Whether the three axes are the world's.
+@export var uv1_world_triplanar := false:
+	set(value):
+		uv1_world_triplanar = value
+		_queue_update()
+
+@export_group("UV2", "uv2_")
+## A factor for the second texture coordinates. As with [BaseMaterial3D], it has an effect where
+## [member detail_uv_layer] is the second, and with [member uv2_triplanar].
+@export_custom(PROPERTY_HINT_LINK, "") var uv2_scale := Vector3.ONE:
+	set(value):
+		uv2_scale = value
+		_queue_update()
+## Added to the second texture coordinates after their scale, where that has an effect.
+@export var uv2_offset := Vector3.ZERO:
+	set(value):
+		uv2_offset = value
+		_queue_update()
+## The same as [member uv1_triplanar] for textures on the second texture coordinates.
+@export var uv2_triplanar := false:
+	set(value):
+		uv2_triplanar = value
+		notify_property_list_changed()
+		_queue_update()
+## How quickly the three change into one another.
+@export_exp_easing var uv2_triplanar_sharpness := 1.0:
+	set(value):
+		uv2_triplanar_sharpness = value
+		_queue_update()
+## Whether the three axes are the world's.
+@export var uv2_world_triplanar := false:
+	set(value):
+		uv2_world_triplanar = value
 		_queue_update()
 
 @export_group("Sampling", "texture_")
@@ -326,6 +497,113 @@ var texture_filter := BaseMaterial3D.TEXTURE_FILTER_LINEAR_WITH_MIPMAPS:
 	set(value):
 		texture_repeat = value
 		_queue_update()
+
+@export_group("Billboard", "billboard_")
+## How the object turns to the camera.
+@export_custom(PROPERTY_HINT_ENUM, _BILLBOARD_MODES)
+var billboard_mode: BaseMaterial3D.BillboardMode = BaseMaterial3D.BILLBOARD_DISABLED:
+	set(value):
+		billboard_mode = value
+		notify_property_list_changed()
+		_queue_update()
+## Whether an object that turns to the camera keeps its scale.
+@export var billboard_keep_scale := false:
+	set(value):
+		billboard_keep_scale = value
+		_queue_update()
+
+@export_group("Particles Anim", "particles_anim_")
+## The columns of the pictures in a sheet of them. Particles show one after the other.
+@export_range(1, 128, 1) var particles_anim_h_frames := 1:
+	set(value):
+		particles_anim_h_frames = value
+		_queue_update()
+## The rows of the pictures in a sheet of them.
+@export_range(1, 128, 1) var particles_anim_v_frames := 1:
+	set(value):
+		particles_anim_v_frames = value
+		_queue_update()
+## Whether the last picture is followed by the first.
+@export var particles_anim_loop := false:
+	set(value):
+		particles_anim_loop = value
+		_queue_update()
+
+@export_group("Grow", "grow_")
+## Whether vertices move along their normals.
+@export var grow := false:
+	set(value):
+		grow = value
+		notify_property_list_changed()
+		_queue_update()
+## How far they move.
+@export_range(-16.0, 16.0, 0.001, "suffix:m") var grow_amount := 0.0:
+	set(value):
+		grow_amount = value
+		_queue_update()
+
+@export_group("Transform")
+## Whether the object has the same size on the screen, however far away it is.
+@export var fixed_size := false:
+	set(value):
+		fixed_size = value
+		_queue_update()
+## Whether points have a [member point_size]; [member albedo_texture] is then laid on each of them.
+@export var use_point_size := false:
+	set(value):
+		use_point_size = value
+		notify_property_list_changed()
+		_queue_update()
+## The size of points.
+@export_range(0.1, 128.0, 0.1, "suffix:px") var point_size := 1.0:
+	set(value):
+		point_size = value
+		_queue_update()
+## For particles with trails.
+@export var use_particle_trails := false:
+	set(value):
+		use_particle_trails = value
+		_queue_update()
+## Whether [member z_clip_scale] moves the object towards the camera in depth.
+@export var use_z_clip_scale := false:
+	set(value):
+		use_z_clip_scale = value
+		notify_property_list_changed()
+		_queue_update()
+## A factor for depths, so that an object in the hand does not reach into walls. Shadows and
+## effects of the screen do not follow it.
+@export_range(0.01, 1.0, 0.01) var z_clip_scale := 1.0:
+	set(value):
+		z_clip_scale = value
+		_queue_update()
+## Whether [member fov_override] stands in for the camera's field of view.
+@export var use_fov_override := false:
+	set(value):
+		use_fov_override = value
+		notify_property_list_changed()
+		_queue_update()
+## The field of view that the object is drawn with.
+@export_range(1.0, 179.0, 0.1, "degrees") var fov_override := 75.0:
+	set(value):
+		fov_override = value
+		_queue_update()
+
+@export_group("MSDF", "msdf_")
+## The breadth of the field around outlines, in texels.
+@export_range(1.0, 100.0, 1.0) var msdf_pixel_range := 4.0:
+	set(value):
+		msdf_pixel_range = value
+		_queue_update()
+## The breadth of an outline, in texels.
+@export_range(0.0, 250.0, 1.0) var msdf_outline_size := 0.0:
+	set(value):
+		msdf_outline_size = value
+		_queue_update()
+
+
+## Whether the albedo texture is a distance field.
+func shows_msdf() -> bool:
+	return albedo_texture_msdf and not uv1_triplanar
 
 
 ## Whether there is diffuse light.
@@ -345,6 +623,8 @@ func emits() -> bool:
 
 ## Whether normals are bent by a map.
 func has_normal_map() -> bool:
+	if detail_enabled and detail_normal != null:
+		return true
 	return normal_enabled and normal_texture != null
 
 
@@ -356,6 +636,23 @@ func has_bent_normals() -> bool:
 ## Whether parts of the surface, or it itself, may hide light from its reflections.
 func occludes_reflections() -> bool:
 	return not disable_specular_occlusion and (is_occluded() or has_normal_map())
+
+
+## Whether a relief moves textures.
+func has_relief() -> bool:
+	return heightmap_enabled and heightmap_texture != null and not uv1_triplanar
+
+
+## Whether vertices are not where the mesh and its node have them.
+func moves_vertices() -> bool:
+	if billboard_mode != BaseMaterial3D.BILLBOARD_DISABLED:
+		return true
+	return fixed_size or use_point_size or grow or use_z_clip_scale or use_fov_override
+
+
+## Whether what the mesh has for tangents does not count.
+func makes_tangents() -> bool:
+	return uv1_triplanar or uv2_triplanar
 
 
 ## Whether a texture occludes the surface.
@@ -380,6 +677,25 @@ func varies() -> bool:
 	if get_shown_anisotropy() == 0.0:
 		return false
 	return anisotropy_flowmap != null and anisotropy_flowmap.has_alpha()
+
+
+func _validate_property(property: Dictionary) -> void:
+	if not _is_of_use(property["name"]):
+		property["usage"] = PROPERTY_USAGE_NO_EDITOR
+
+
+# Whether a property has an effect as the others are; the inspector hides those that have none.
+func _is_of_use(property: String) -> bool:
+	if _SWITCHES.has(property):
+		return bool(get(_SWITCHES[property]))
+	if property.begins_with("particles_anim_"):
+		return billboard_mode == BaseMaterial3D.BILLBOARD_PARTICLES
+	match property:
+		"alpha_scissor_threshold":
+			return transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR
+		"alpha_hash_scale":
+			return transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_HASH
+	return true
 
 
 func _follow(before: Resource, after: Resource) -> void:

@@ -40,6 +40,8 @@ const TableChoice := preload("table_choice.gd")
 const _INCLUDES: Array[ShaderInclude] = [
 	preload("../clear_coat/clear_coat.gdshaderinc"),
 	preload("../shaders/colour.gdshaderinc"),
+	preload("../shaders/coordinates.gdshaderinc"),
+	preload("../detail/detail.gdshaderinc"),
 	preload("../diffuse/diffuse.gdshaderinc"),
 	preload("../shaders/environment.gdshaderinc"),
 	preload("../shaders/frame.gdshaderinc"),
@@ -47,7 +49,12 @@ const _INCLUDES: Array[ShaderInclude] = [
 	preload("../shaders/material.gdshaderinc"),
 	preload("../shaders/material_inputs.gdshaderinc"),
 	preload("../occlusion/occlusion.gdshaderinc"),
+	preload("../msdf/msdf.gdshaderinc"),
+	preload("../parallax/parallax.gdshaderinc"),
 	preload("../shaders/specular.gdshaderinc"),
+	preload("../triplanar/triplanar.gdshaderinc"),
+	preload("../shaders/vertex.gdshaderinc"),
+	preload("../vertices/vertices.gdshaderinc"),
 	preload("../shaders/widths.gdshaderinc"),
 ]
 
@@ -122,12 +129,8 @@ func _validate_property(property: Dictionary) -> void:
 			property.usage = PROPERTY_USAGE_NONE
 		"render_priority", "next_pass":
 			property.usage = PROPERTY_USAGE_DEFAULT
-		"alpha_scissor_threshold":
-			if transparency != BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR:
-				property.usage = PROPERTY_USAGE_NO_EDITOR
-		"alpha_hash_scale":
-			if transparency != BaseMaterial3D.TRANSPARENCY_ALPHA_HASH:
-				property.usage = PROPERTY_USAGE_NO_EDITOR
+		_:
+			super(property)
 
 
 ## The generated shader's code: [code]#define[/code]s that choose the variant, and an
@@ -147,8 +150,9 @@ func needs_tangents() -> bool:
 	_mutex.lock()
 	_look()
 	var needed := has_normal_map() or has_bent_normals() or not _choice.is_isotropic
+	needed = needed or has_relief()
 	_mutex.unlock()
-	return needed
+	return needed and not makes_tangents()
 
 
 ## How often a pixel looks something up for each light that reaches it, counted from the shader:

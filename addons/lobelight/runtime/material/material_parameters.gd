@@ -5,6 +5,7 @@ extends Object
 ## Not as [ShaderMaterial]'s own parameters: those would be stored with the material, pyramid and
 ## all.
 
+const CoordinateParameters := preload("coordinate_parameters.gd")
 const TableChoice := preload("table_choice.gd")
 
 # As Godot's own materials have them, gray being the mean.
@@ -40,10 +41,7 @@ static func apply(surface: LobeBaseMaterial3D, choice: TableChoice) -> void:
 	if surface.transparency != BaseMaterial3D.TRANSPARENCY_DISABLED:
 		_give(material, &"lobelight_alpha_scissor_threshold", surface.alpha_scissor_threshold)
 		_give(material, &"lobelight_alpha_hash_scale", surface.alpha_hash_scale)
-	var scale := surface.uv1_scale
-	var offset := surface.uv1_offset
-	if scale != Vector3.ONE or offset != Vector3.ZERO:
-		_give(material, &"lobelight_uv_transform", Vector4(scale.x, scale.y, offset.x, offset.y))
+	CoordinateParameters.apply(surface)
 
 
 static func _apply_table(material: RID, choice: TableChoice) -> void:
@@ -87,13 +85,27 @@ static func _apply_textures(surface: LobeBaseMaterial3D) -> void:
 		_give(material, &"lobelight_ao_channel", _CHANNELS[surface.ao_texture_channel])
 	if surface.is_occluded():
 		_give(material, &"lobelight_ao_light_affect", surface.ao_light_affect)
-	if _give_texture(material, &"lobelight_normal_texture", surface.normal_texture):
-		_give(material, &"lobelight_normal_scale", surface.normal_scale)
+	if surface.has_normal_map():
+		# A detail's may be the only one.
+		var map := surface.normal_texture if surface.normal_enabled else null
+		_give(material, &"lobelight_normal_texture", map.get_rid() if map != null else null)
+		_give(
+			material,
+			&"lobelight_normal_scale",
+			surface.normal_scale if surface.normal_enabled else 1.0
+		)
 	if surface.has_bent_normals():
 		_give_texture(material, &"lobelight_bent_normal_texture", surface.bent_normal_texture)
 	_give_texture(material, &"lobelight_flowmap", surface.anisotropy_flowmap)
 	_give_texture(material, &"lobelight_coat_texture", surface.clearcoat_texture)
 	_give_texture(material, &"lobelight_emission_texture", surface.emission_texture)
+	_give_texture(material, &"lobelight_detail_mask", surface.detail_mask)
+	_give_texture(material, &"lobelight_detail_albedo", surface.detail_albedo)
+	_give_texture(material, &"lobelight_detail_normal", surface.detail_normal)
+	_give_texture(material, &"lobelight_heightmap", surface.heightmap_texture)
+	if surface.albedo_texture_msdf:
+		_give(material, &"lobelight_msdf_range", surface.msdf_pixel_range)
+		_give(material, &"lobelight_msdf_outline", surface.msdf_outline_size)
 
 
 static func _apply_emission(surface: LobeBaseMaterial3D) -> void:

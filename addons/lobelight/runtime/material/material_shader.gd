@@ -2,6 +2,7 @@
 extends Object
 ## The shader variant of a [LobeMaterial3D]: its render modes and defines.
 
+const CoordinateDefines := preload("coordinate_defines.gd")
 const LightRegistry := preload("../light/light_registry.gd")
 const TableChoice := preload("table_choice.gd")
 
@@ -9,14 +10,6 @@ const _BLEND_MODES: PackedStringArray = [
 	"blend_mix", "blend_add", "blend_sub", "blend_mul", "blend_premul_alpha"
 ]
 const _CULL_MODES: PackedStringArray = ["cull_back", "cull_front", "cull_disabled"]
-const _FILTERS: PackedStringArray = [
-	"filter_nearest",
-	"filter_linear",
-	"filter_nearest_mipmap",
-	"filter_linear_mipmap",
-	"filter_nearest_mipmap_anisotropic",
-	"filter_linear_mipmap_anisotropic",
-]
 ## Lookups of the diffuse light, see diffuse/diffuse.gdshaderinc.
 const DIFFUSE_FETCHES := 6
 
@@ -73,6 +66,8 @@ static func _render_modes(surface: LobeBaseMaterial3D) -> PackedStringArray:
 		modes.append(_CULL_MODES[surface.cull_mode])
 	if surface.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_DEPTH_PRE_PASS:
 		modes.append("depth_prepass_alpha")
+	if surface.use_particle_trails:
+		modes.append("particle_trails")
 	return modes
 
 
@@ -101,6 +96,7 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		defines.append("EMISSION")
 	_add_alpha(surface, defines)
 	_add_textures(surface, choice, defines)
+	CoordinateDefines.add_vertices(surface, defines)
 	if surface.vertex_color_use_as_albedo:
 		defines.append("VERTEX_COLOUR")
 		if surface.vertex_color_is_srgb:
@@ -124,6 +120,10 @@ static func _add_textures(
 	var first := defines.size()
 	if surface.albedo_texture != null:
 		defines.append("ALBEDO_TEXTURE")
+		if surface.shows_msdf():
+			defines.append("MSDF")
+		elif surface.albedo_texture_force_srgb:
+			defines.append("SRGB_ALBEDO")
 	if surface.orm_texture != null:
 		defines.append("ORM_TEXTURE")
 	else:
@@ -148,13 +148,27 @@ static func _add_textures(
 		defines.append("COAT_TEXTURE")
 	if surface.emission_texture != null and surface.emits():
 		defines.append("EMISSION_TEXTURE")
+		if surface.emission_on_uv2:
+			defines.append("EMISSION_ON_UV2")
+	if surface.detail_enabled:
+		_add_details(surface, defines)
 	if defines.size() == first:
 		return
 	defines.append("TEXTURED")
-	var repeat := "repeat_enable" if surface.texture_repeat else "repeat_disable"
-	defines.append("SAMPLING %s, %s" % [_FILTERS[surface.texture_filter], repeat])
-	if surface.uv1_scale != Vector3.ONE or surface.uv1_offset != Vector3.ZERO:
-		defines.append("UV_TRANSFORM")
+	CoordinateDefines.add(surface, defines)
+
+
+static func _add_details(surface: LobeBaseMaterial3D, defines: PackedStringArray) -> void:
+	defines.append("DETAIL")
+	defines.append("DETAIL_BLEND %d" % surface.detail_blend_mode)
+	if surface.detail_mask != null:
+		defines.append("DETAIL_MASK")
+	if surface.detail_albedo != null:
+		defines.append("DETAIL_ALBEDO")
+	if surface.detail_normal != null:
+		defines.append("DETAIL_NORMAL")
+	if surface.detail_uv_layer == BaseMaterial3D.DETAIL_UV_2:
+		defines.append("DETAIL_ON_UV2")
 
 
 # Of reflections, see occlusion/occlusion.gdshaderinc.
