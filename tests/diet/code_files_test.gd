@@ -215,7 +215,8 @@ func test_renderers_that_no_system_has_stay_out(
 
 func test_shaders_lose_their_comments_and_nothing_else() -> void:
 	var probes := "user://diet_probes.gd"
-	_write(probes, "extends LobeProbe3D\n")
+	# With every feature of materials.
+	_write(probes, "extends LobeProbe3D\n\n\nfunc give(name, value):\n\tself.set(name, value)\n")
 	var files := ProjectFiles.of_scene(SCENES + "everything.tscn")
 	files.append(probes)
 	var code: CodeFiles = Diet.of_files(files).code

@@ -151,6 +151,40 @@ func test_materials_with_holes_are_drawn() -> void:
 	assert_int(seen).is_between(SIDE * SIDE / 4, SIDE * SIDE * 6 / 10)
 
 
+func test_places_are_those_of_moved_vertices() -> void:
+	# A quad in a light that fades along it, and others that are turned or moved into its place.
+	var material := _metal(8, Vector2(0.1, 0.3))
+	var quad := SphereImpostor.make_quad(material)
+	_view.add_child(quad)
+	await _light(Kit.constant(0.0))
+	var probe := _add_probe(_make_light(8, _colourful), Vector3(-4, 0, 0), 8.0 * Vector3.ONE)
+	probe.blend_distance = 0.5
+	var expected: Image = await _view.capture()
+	assert_float(expected.get_pixel(4, 24).g).is_greater(expected.get_pixel(44, 24).g + 0.1)
+	material.billboard_mode = BaseMaterial3D.BILLBOARD_ENABLED
+	quad.rotation.y = 0.5 * PI
+	_assert_same(await _view.capture(), expected, "a billboard")
+	material.billboard_mode = BaseMaterial3D.BILLBOARD_DISABLED
+	quad.rotation.y = 0.0
+	_view.camera.size = 3.0
+	quad.scale = 1.5 * Vector3(0.5, 1.0, 1.0)
+	var narrow: Image = await _view.capture()
+	# In a picture that is two high it has its own size.
+	quad.scale = Vector3(0.5, 1.0, 1.0)
+	material.fixed_size = true
+	_assert_same(await _view.capture(), narrow, "a fixed size")
+	material.fixed_size = false
+	_view.camera.size = 2.0
+	quad.basis = Basis(Vector3.UP, 0.25 * PI)
+	material.grow = true
+	material.grow_amount = 0.25
+	quad.position = -0.25 * quad.basis.z
+	var grown: Image = await _view.capture()
+	material.grow = false
+	quad.position = Vector3.ZERO
+	_assert_same(await _view.capture(), grown, "growth")
+
+
 func test_samplers_are_counted() -> void:
 	var material := _metal(8, Vector2(0.1, 0.3))
 	assert_dict(material.get_fetches()).is_equal({"environment": 8, "table": 8, "samplers": 2})
