@@ -152,6 +152,7 @@ func test_the_first_capture_is_dark_already() -> void:
 
 func test_captures_come_to_what_endless_ones_show() -> void:
 	var walls := _add_lobe_room()
+	walls[0].emission_enabled = true
 	walls[0].emission = Color.WHITE
 	await _settle_lobes()
 	await _environment.rebuild()

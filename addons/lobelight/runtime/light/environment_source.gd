@@ -3,8 +3,9 @@ extends RefCounted
 ## Where the light of a [LobeEnvironment3D] comes from at the moment: which of the ways to get at it
 ## is taken, whether it has changed, and the chain that draws it.
 
-## A panorama of the node's, the panorama of a sky, views of a sky, views of the scene.
-enum Kind { NONE, PANORAMA, SKY_PANORAMA, SKY_VIEWS, SCENE_VIEWS }
+## A panorama of the node's, the same light from all sides as there is no sky, the panorama of a
+## sky, views of a sky, views of the scene.
+enum Kind { NONE, PANORAMA, EVEN, SKY_PANORAMA, SKY_VIEWS, SCENE_VIEWS }
 
 const LightSettings := preload("light_settings.gd")
 const LiveTextures := preload("live_textures.gd")
@@ -72,14 +73,19 @@ func look() -> bool:
 	_kind = kind
 	if _world != null:
 		changed = _world.look(_get_views()) or changed
-	if _kind < Kind.SKY_VIEWS:
+	if _kind == Kind.PANORAMA or _kind == Kind.SKY_PANORAMA:
 		changed = changed or LiveTextures.is_live(_find_panorama())
 	return _make_key() != _key or changed
 
 
-## What is being drawn; what stays the same is taken from [param chain], which may be null.
+## What is being drawn; what stays the same is taken from [param chain], which may be null. Even
+## light needs no drawing: null.
 func make_chain(chain: PyramidChain) -> PyramidChain:
 	var key := _make_key()
+	if _kind == Kind.EVEN:
+		_light = null if key != _key else _light
+		_key = key
+		return null
 	if chain != null and key == _key:
 		if chain.views != null:
 			_place_views(chain.views)
@@ -107,8 +113,14 @@ func make_chain(chain: PyramidChain) -> PyramidChain:
 	return chain
 
 
-## The light that a chain has made, the same object for every update of the chain.
+## The light that a chain has made, the same object for every update of the chain. Without one,
+## even light.
 func get_light(chain: PyramidChain) -> LobeLight:
+	if chain == null:
+		if _light == null:
+			var even := Pyramid.is_round(_settings.filter)
+			_light = LobeLight.make_constant(_world.find_even_light(), even)
+		return _light
 	if _light == null or _light.cubemap != chain.cube.texture:
 		_light = LobeLight.new()
 		_light.cubemap = chain.cube.texture
@@ -142,6 +154,11 @@ func get_kind() -> Kind:
 	return _kind
 
 
+## Why even light is none, or shows nothing, and what to do, in a sentence; empty if it is as meant.
+func find_shortage() -> String:
+	return _world.find_shortage() if _kind == Kind.EVEN and _world != null else ""
+
+
 ## To be called when the node leaves its world; whether its light has been that world's.
 func leave_world() -> bool:
 	_world = null
@@ -153,6 +170,8 @@ func _find_kind() -> Kind:
 		return Kind.PANORAMA
 	if _settings.source == LightSettings.Source.CAPTURE:
 		return Kind.SCENE_VIEWS
+	if _world.is_even():
+		return Kind.EVEN
 	# Compatibility takes the colours of skies for sRGB. What comes of that, views show.
 	if _is_compatibility():
 		return Kind.SKY_VIEWS
@@ -178,6 +197,8 @@ func _find_panorama() -> Texture2D:
 
 
 func _make_key() -> Array:
+	if _kind == Kind.EVEN:
+		return [_kind, _settings.filter, _world.find_even_light()]
 	if _kind >= Kind.SKY_VIEWS:
 		return [_kind, _settings.size, _settings.filter, _settings.measure_cost]
 	var panorama := _find_panorama()

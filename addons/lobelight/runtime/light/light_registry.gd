@@ -13,6 +13,7 @@ const OnDemand := preload("../on_demand.gd")
 
 # Seconds that a fade goes on by in a frame, at most.
 const _LONGEST_STEP := 0.1
+const _NEUTRAL_WARNING := "res://addons/lobelight/runtime/warnings/neutral_warning.gd"
 const _PLACED := "res://addons/lobelight/runtime/probes/placed_lights.gd"
 
 # Resources may be created and freed on loader threads.
@@ -168,6 +169,24 @@ static func withdraw(owner: int) -> void:
 	_mutex.unlock()
 
 
+## Whether there are materials, but no light for them in any world, nor one to come.
+static func is_unlit() -> bool:
+	_mutex.lock()
+	var found := not _materials.is_empty()
+	for scenario in _worlds:
+		found = found and not _worlds[scenario].is_lit() and _worlds[scenario].pending.is_empty()
+	_mutex.unlock()
+	return found
+
+
+## Whether a material shows the light of its place rather than one of its own.
+static func awaits_light(material: RID) -> bool:
+	_mutex.lock()
+	var found := _materials.has(material) and not _own.has(material)
+	_mutex.unlock()
+	return found
+
+
 ## What finds the light of each pixel; null while there is one light for all.
 static func get_placed() -> RefCounted:
 	return _placed
@@ -219,6 +238,9 @@ static func _watch() -> void:
 		return
 	tree.root.tree_exiting.connect(_forget)
 	_is_watched = true
+	# The editor warns by itself, and exports leave out what does it here.
+	if not Engine.is_editor_hint() and ResourceLoader.exists(_NEUTRAL_WARNING):
+		load(_NEUTRAL_WARNING).begin.call_deferred(tree)
 
 
 static func _forget() -> void:

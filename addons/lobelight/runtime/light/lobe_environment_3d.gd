@@ -9,9 +9,14 @@ extends Node3D
 ## [br][br]
 ## [b]The scene's sky[/b] is that of the [Environment] which the engine takes for the camera of the
 ## node's viewport: the camera's own, else the world's. All kinds of skies are taken as a camera
-## sees them, with their rotation and energy, the suns of [DirectionalLight3D]s and fog; so are the
-## background's colours. Canvas, camera feed and [constant Environment.BG_KEEP] count as black,
-## [member Environment.sky_custom_fov] and volumetric fog as absent.
+## sees them, with their rotation and energy, the suns of [DirectionalLight3D]s and fog, also where
+## another background hides a sky that lights. [member Environment.sky_custom_fov] and volumetric fog
+## count as absent.
+## [br][br]
+## [b]Without a sky[/b], light comes from all sides as the engine has it for its own materials: the
+## ambient light's colour, or that of the background. (Where ambient light is disabled, the
+## background's colour is still reflected.) Metals show it too. Where it is black, or the clear
+## colour, which smooth metals vanish in, the running game warns once.
 ## [br][br]
 ## [b]Units.[/b] Light is linear, in the units of the scene, up to 65504 (half floats). In
 ## Compatibility, skies and scenes are taken as the engine shows them there: it takes sky
@@ -96,6 +101,8 @@ const _GROUP := &"_lobelight_environments"
 const _IDLE_FRAMES := 120
 # Captures after that of a change, each of which brings one more reflection between materials.
 const _ECHOES := 3
+# Milliseconds in which a scene may still get the sky that its light lacks.
+const _PATIENCE := 2000
 # What is drawn in one frame has no slices.
 const _WHOLE := -1
 
@@ -237,6 +244,9 @@ var _in_the_dark := false
 # Whether the node lights its world, and from what its light was made.
 var _active := false
 var _light_kind := EnvironmentSource.Kind.NONE
+# Whether it has been told what the light lacks, and when, in milliseconds, it is to be.
+var _is_told := false
+var _tell_time := 0
 # What the last update cost.
 var _gpu_time := 0.0
 var _cpu_time := 0.0
@@ -404,7 +414,8 @@ func _on_frame_pre_draw() -> void:
 	if _active and not _running:
 		_start_if_due()
 	if _running:
-		_chain.draw(_slice)
+		if _chain != null:
+			_chain.draw(_slice)
 		_drawn = true
 		_idle = 0
 	elif _chain != null and not _chain.draw_for_clock():
@@ -459,7 +470,7 @@ func _begin(slice: int) -> bool:
 		return false
 	_source.look()
 	_chain = _source.make_chain(_chain)
-	_slice = slice
+	_slice = slice if _chain != null else _WHOLE
 	_prepare_capture()
 	_running = true
 	_drawn = false
@@ -491,7 +502,7 @@ func _on_frame_post_draw() -> void:
 	if not _running or not _drawn:
 		return
 	_drawn = false
-	if not _chain.receive(_slice):
+	if _chain != null and not _chain.receive(_slice):
 		_running = false
 		_chain = null
 		_error = "The renderer did not draw the pyramid."
@@ -504,7 +515,9 @@ func _on_frame_post_draw() -> void:
 			return
 	_running = false
 	_frames = 1 if _slice == _WHOLE else _slice
-	_cpu_time = _chain.transfer_time
+	_cpu_time = _chain.transfer_time if _chain != null else 0.0
+	if _chain == null:
+		_gpu_time = 0.0
 	_light_kind = _source.get_kind()
 	_lit_by_itself = _lit_by_itself and _active
 	_set_light(_source.get_light(_chain))
@@ -519,9 +532,31 @@ func _set_light(light: LobeLight) -> void:
 	if is_other or _in_the_dark or light == null:
 		_in_the_dark = false
 		_check_in()
+	if light != null and _light_kind == EnvironmentSource.Kind.EVEN:
+		_tell_later()
 	if light != null:
 		rebuilt.emit()
 	rebuild_finished.emit()
+
+
+# In the editor, the scene tree says it.
+func _tell_later() -> void:
+	if _is_told or not is_inside_tree() or Engine.is_editor_hint():
+		return
+	if not get_tree().process_frame.is_connected(_tell):
+		_tell_time = Time.get_ticks_msec() + _PATIENCE
+		get_tree().process_frame.connect(_tell)
+
+
+func _tell() -> void:
+	if Time.get_ticks_msec() < _tell_time:
+		return
+	var tree := Engine.get_main_loop() as SceneTree
+	tree.process_frame.disconnect(_tell)
+	var shortage := _source.find_shortage() if is_inside_tree() and is_active() else ""
+	_is_told = not shortage.is_empty()
+	if shortage:
+		push_warning("LobeEnvironment3D: %s: %s" % [get_path(), shortage])
 
 
 # What has been drawn of another world's light is of no use.

@@ -60,13 +60,21 @@ var priority := 0
 
 ## No light, at levels that blur alike in all directions or not.
 static func make_dark(even: bool) -> LobeLight:
-	var light := LobeLight.new()
-	var dark: Array[Image] = []
-	for face in _FACES:
-		dark.append(Image.create_empty(1, 1, false, Image.FORMAT_RGBAH))
-	light.faces = dark
-	light.is_even = even
+	var light := make_constant(Color.BLACK, even)
 	light.energy = 0.0
+	return light
+
+
+## The same light from all sides, linear, of one texel a face.
+static func make_constant(colour: Color, even: bool) -> LobeLight:
+	var light := LobeLight.new()
+	var made: Array[Image] = []
+	for face in _FACES:
+		var image := Image.create_empty(1, 1, false, Image.FORMAT_RGBAH)
+		image.set_pixel(0, 0, colour)
+		made.append(image)
+	light.faces = made
+	light.is_even = even
 	return light
 
 

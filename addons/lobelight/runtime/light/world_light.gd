@@ -30,6 +30,15 @@ static func find_loss() -> String:
 ## What that panorama's light is multiplied by.
 @abstract func find_panorama_energy() -> float
 
+## Whether there is no sky, so that light comes evenly from all sides.
+@abstract func is_even() -> bool
+
+## That light, linear.
+@abstract func find_even_light() -> Color
+
+## Why that light is none, or shows nothing, and what to do, in a sentence; empty if it is as meant.
+@abstract func find_shortage() -> String
+
 ## From the sky to the world.
 @abstract func find_sky_rotation() -> Basis
 

@@ -3,6 +3,7 @@ extends RefCounted
 ## What the camera of a node's viewport sees around the scene: the environment that the engine would
 ## take, a copy of it for the views, and whether it has changed.
 
+const EvenLight := preload("even_light.gd")
 const LiveTextures := preload("../light/live_textures.gd")
 
 # What there is behind the scene, and the fog before it.
@@ -75,12 +76,30 @@ func find_camera() -> Camera3D:
 	return _node.get_viewport().get_camera_3d()
 
 
+## Whether there is no sky that lights anything, nor fog before the background, which has the sun in
+## it: light comes evenly from all sides.
+func is_even() -> bool:
+	var environment := find_environment()
+	if environment == null:
+		return true
+	return not _is_lit_by_sky(environment) and not _is_fog_seen(environment)
+
+
+## That light, linear: what the engine takes for ambient light, or where it is to take none, the
+## background's colour. [EvenLight] has the rules.
+func find_even_light() -> Color:
+	return EvenLight.of(find_environment())
+
+
+## Why that light is none, or shows nothing, and what to do, in a sentence; empty if it is as meant.
+func find_shortage() -> String:
+	return EvenLight.find_shortage(find_environment())
+
+
 ## The panorama, if it is all that there is to the sky; otherwise null.
 func find_panorama() -> Texture2D:
 	var environment := find_environment()
-	if environment == null or environment.background_mode != Environment.BG_SKY:
-		return null
-	if environment.fog_enabled or environment.sky == null:
+	if environment == null or environment.fog_enabled or not _is_lit_by_sky(environment):
 		return null
 	var material := environment.sky.sky_material as PanoramaSkyMaterial
 	return material.panorama if material != null else null
@@ -115,15 +134,46 @@ func update() -> bool:
 		_copy_properties(environment, _BACKGROUND)
 		if _with_scene:
 			_copy_properties(environment, _LIGHTING)
-		if environment.background_mode > Environment.BG_SKY:
-			# Canvases, camera feeds and what was there before are no light.
-			copy.background_mode = Environment.BG_COLOR
-			copy.background_color = Color.BLACK
+		_copy_background(environment)
 		if environment.sky != null:
 			_look_at_sky(environment.sky)
 	_look_at(RenderingServer.get_default_clear_color())
 	_seen.resize(_count)
 	return _differs
+
+
+func _copy_background(environment: Environment) -> void:
+	copy.background_mode = environment.background_mode
+	copy.background_color = environment.background_color
+	var is_sky := not _with_scene and _is_lit_by_sky(environment)
+	_look_at(is_sky)
+	if is_sky:
+		# Seen or not.
+		copy.background_mode = Environment.BG_SKY
+	elif environment.background_mode > Environment.BG_SKY:
+		# Canvases, camera feeds and what was there before are no light.
+		copy.background_mode = Environment.BG_COLOR
+		copy.background_color = Color.BLACK
+
+
+# As the engine asks (Godot 4.6, render_scene_data_rd.cpp, update_ubo): a sky may light what is
+# before another background.
+static func _is_lit_by_sky(environment: Environment) -> bool:
+	if environment.sky == null:
+		return false
+	return (
+		environment.background_mode == Environment.BG_SKY
+		or environment.ambient_light_source == Environment.AMBIENT_SOURCE_SKY
+		or environment.reflected_light_source == Environment.REFLECTION_SOURCE_SKY
+	)
+
+
+static func _is_fog_seen(environment: Environment) -> bool:
+	return (
+		environment.fog_enabled
+		and environment.fog_sky_affect > 0.0
+		and environment.background_mode in [Environment.BG_CLEAR_COLOR, Environment.BG_COLOR]
+	)
 
 
 func _copy_properties(environment: Environment, names: Array[StringName]) -> void:

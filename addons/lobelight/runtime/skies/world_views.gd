@@ -31,6 +31,18 @@ func find_panorama_energy() -> float:
 	return _surroundings.find_panorama_energy()
 
 
+func is_even() -> bool:
+	return _surroundings.is_even()
+
+
+func find_even_light() -> Color:
+	return _surroundings.find_even_light()
+
+
+func find_shortage() -> String:
+	return _surroundings.find_shortage()
+
+
 func find_sky_rotation() -> Basis:
 	return _surroundings.find_sky_rotation()
 

@@ -78,6 +78,10 @@ static func _of_sky(root: Node) -> PackedStringArray:
 		return ["The scene has no sky: add a WorldEnvironment with a sky, or set Panorama."]
 	var warnings: PackedStringArray = []
 	for background in backgrounds:
+		if background.background_mode == Environment.BG_CLEAR_COLOR and background.sky == null:
+			warnings.append(
+				"The background is the clear colour, which smooth metals vanish in: set it to Sky."
+			)
 		if background.background_mode != Environment.BG_SKY:
 			continue
 		var material := background.sky.sky_material as PanoramaSkyMaterial
