@@ -10,8 +10,8 @@ extends Node3D
 ## [b]The scene's sky[/b] is that of the [Environment] which the engine takes for the camera of the
 ## node's viewport: the camera's own, else the world's. All kinds of skies are taken as a camera
 ## sees them, with their rotation and energy, the suns of [DirectionalLight3D]s and fog, also where
-## another background hides a sky that lights. [member Environment.sky_custom_fov] and volumetric fog
-## count as absent.
+## another background hides a sky that lights. [member Environment.sky_custom_fov] and volumetric
+## fog count as absent.
 ## [br][br]
 ## [b]Without a sky[/b], light comes from all sides as the engine has it for its own materials: the
 ## ambient light's colour, or that of the background. (Where ambient light is disabled, the
