@@ -13,10 +13,15 @@ const OPTIONS: PackedStringArray = [
 	"json",
 ]
 const FOLDER := "res://addons/lobelight/tables"
-const SHIPPED: PackedStringArray = ["ward", "ggx"]
-const ALL: PackedStringArray = ["ward", "ward_bounded", "ggx"]
+const SHIPPED: PackedStringArray = ["ward", "ggx", "charlie"]
+const ALL: PackedStringArray = ["ward", "ward_bounded", "ggx", "charlie"]
 const FIRST_WIDTH := 0.005
 const LAST_WIDTH := 1.0
+# Sheen is smooth and has one width: a few lobes and tables do.
+const SHEEN := "charlie"
+const SHEEN_FIRST_WIDTH := 0.04
+const SHEEN_WIDTHS := 10
+const SHEEN_LOBES := 4
 ## Of how many tables a check fits one again.
 const CHECK_STRIDE := 12
 
@@ -29,14 +34,14 @@ func _initialize() -> void:
 
 
 func _run() -> void:
-	var recipe := _recipe()
+	_recipe(SHIPPED[0])
 	var folder := _folder()
 	var summaries: Array[Dictionary] = []
 	_arguments.fail_if(NativeLibrary.error())
 	for brdf in _brdfs():
 		if not _arguments.error.is_empty():
 			break
-		recipe["brdf"] = brdf
+		var recipe := _recipe(brdf)
 		var path := folder.path_join("%s_%d.res" % [brdf, recipe["lobes"]])
 		if _arguments.has("check"):
 			summaries.append(_check(path))
@@ -62,17 +67,23 @@ func _brdfs() -> PackedStringArray:
 	return [brdf]
 
 
-func _recipe() -> Dictionary:
-	var count := _arguments.integer("widths", 21, 2, LobeTableSet.MAX_WIDTHS)
+func _recipe(brdf: String) -> Dictionary:
+	var is_sheen := brdf == SHEEN
+	var first := SHEEN_FIRST_WIDTH if is_sheen else FIRST_WIDTH
+	var usual_count := SHEEN_WIDTHS if is_sheen else 21
+	var usual_views := PackedFloat64Array([16, 1] if is_sheen else [16, 8])
+	var count := _arguments.integer("widths", usual_count, 2, LobeTableSet.MAX_WIDTHS)
 	var widths := []
 	for i in count:
-		var width := FIRST_WIDTH * pow(LAST_WIDTH / FIRST_WIDTH, i / (count - 1.0))
+		var width := first * pow(LAST_WIDTH / first, i / (count - 1.0))
 		# A few digits, so that the last bit of an engine's pow() does not matter.
 		widths.append(String.num(width, 7).to_float())
 	return {
+		"brdf": brdf,
 		"widths": widths,
-		"lobes": _arguments.integer("lobes", 8, 1, LobeTable.MAX_LOBES),
-		"views": Array(_arguments.numbers("views", 2, PackedFloat64Array([16, 8]))),
+		"lobes":
+		_arguments.integer("lobes", SHEEN_LOBES if is_sheen else 8, 1, LobeTable.MAX_LOBES),
+		"views": Array(_arguments.numbers("views", 2, usual_views)),
 		"seed": _arguments.integer("seed", 0, 0, (1 << 31) - 1),
 		"threads": _arguments.integer("threads", 0, 0, 1024),
 	}

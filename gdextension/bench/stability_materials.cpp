@@ -35,6 +35,8 @@ std::vector<Shape> shapes(int density) {
 std::vector<Material> materials(int density) {
   std::vector<Material> list;
   for (const std::string& brdf : brdf_names()) {
+    // Sheen has one width, in a range where it is smooth.
+    if (is_always_isotropic(brdf)) continue;
     bool along_y = true;
     for (const Shape& shape : shapes(density)) {
       const double narrow = std::max(shape.width / shape.ratio, kMinAlpha);

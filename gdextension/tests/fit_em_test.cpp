@@ -9,6 +9,7 @@
 #include "base/pi.h"
 #include "fit/em.h"
 #include "fit/initial_guess.h"
+#include "models.h"
 #include "statistics.h"
 
 namespace lobelight {
@@ -61,7 +62,7 @@ TEST_CASE("The log-likelihood never falls") {
           CAPTURE(name);
           CAPTURE(alpha.x);
           CAPTURE(lobes);
-          const Slice slice = sample_slice(*make_brdf(name, alpha), o, 24);
+          const Slice slice = sample_slice(*testing::model(name, alpha), o, 24);
           const EmResult result = run_em(slice, initial_guess(slice, lobes));
           CHECK(result.iterations >= 1);
           CHECK(result.log_likelihood.size() == static_cast<std::size_t>(result.iterations) + 1);

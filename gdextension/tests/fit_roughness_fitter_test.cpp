@@ -164,8 +164,11 @@ TEST_CASE("what a set cannot be fitted of is named") {
   set.brdf = "copper.binary";
   CHECK(message(set).find("models only") != std::string::npos);
   set = small_set();
-  set.views = {16, 1};
-  CHECK(message(set).find("2 azimuths") != std::string::npos);
+  set.views = {16, 0};
+  CHECK(message(set).find("1 azimuth.") != std::string::npos);
+  set = small_set();
+  set.brdf = "charlie";
+  CHECK(message(set).find("is isotropic") != std::string::npos);
   set = small_set();
   set.lobes = 33;
   CHECK(message(set).find("lobes is 33") != std::string::npos);

@@ -8,6 +8,7 @@
 
 #include "base/pi.h"
 #include "brdf_oracle.h"
+#include "models.h"
 #include "fit/mirror.h"
 #include "fit/slice.h"
 #include "statistics.h"
@@ -37,7 +38,7 @@ TEST_CASE("A slice's albedo agrees with SciPy's quadrature at the default size")
 
 TEST_CASE("Slice nodes are above the horizon, weighted, and the same on every call") {
   for (const std::string& name : brdf_names()) {
-    const auto brdf = make_brdf(name, {0.05, 0.4});
+    const auto brdf = testing::model(name, {0.05, 0.4});
     const Slice slice = sample_slice(*brdf, view(80.0, 33.0), 30, 0.3);
     CHECK(slice.directions.size() == slice.weights.size());
     CHECK(slice.directions.size() > 300);
@@ -81,7 +82,7 @@ bool is_mirror_symmetric(const Slice& slice, int axis) {
 TEST_CASE("Slice nodes have the slice's mirror symmetry") {
   for (const std::string& name : brdf_names()) {
     CAPTURE(name);
-    const auto brdf = make_brdf(name, {0.1, 0.3});
+    const auto brdf = testing::model(name, {0.1, 0.3});
     const Slice pole = sample_slice(*brdf, {0.0, 0.0, 1.0}, 24);
     CHECK(is_mirror_symmetric(pole, 0));
     CHECK(is_mirror_symmetric(pole, 1));

@@ -21,6 +21,8 @@ const FEATURES: PackedStringArray = [
 	"parallax/parallax.gdshaderinc",
 	"triplanar/triplanar.gdshaderinc",
 	"vertices/vertices.gdshaderinc",
+	"sheen/sheen.gdshaderinc",
+	"gltf/lobe_gltf_extension.gd",
 ]
 
 ## A scene, and which of FEATURES it needs.
@@ -40,7 +42,12 @@ const ASKING := [
 	["$Light.filter = 1", [2]],
 	["$Light.panorama = null", [3, 4]],
 	["add_child(LobeEnvironment3D.new())", [3, 4]],
-	["material.set(property, 0.1)", [0, 1, 2, 3, 4, 7, 8, 9, 10, 11, 12]],
+	["material.set(property, 0.1)", [0, 1, 2, 3, 4, 7, 8, 9, 10, 11, 12, 13]],
+	["material.sheen_enabled = true", [13]],
+	[
+		"var extension := LobeGLTFExtension.new()",
+		[0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11, 12, 13, 14]
+	],
 	["LobeMaterial3D.get_losses_from(material)", [5]],
 	['material.call("to_standard")', [5]],
 	["add_child(LobeProbe3D.new())", [3, 4, 6]],

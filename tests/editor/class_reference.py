@@ -12,6 +12,7 @@ CLASSES = {
     "LobeBaker",
     "LobeBaseMaterial3D",
     "LobeEnvironment3D",
+    "LobeGLTFExtension",
     "LobeImageFile",
     "LobeLight",
     "LobeMaterial3D",

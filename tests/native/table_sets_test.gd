@@ -14,7 +14,7 @@ const REFUSED := [
 	["widths", "all", 'widths is "all" (String)'],
 	["widths", [0.1, "0.2"], "an Array of numbers"],
 	["brdf", "x.binary", "models only"],
-	["views", [16, 1], "2 azimuths"],
+	["views", [16, 0], "1 azimuth."],
 	["lobes", 33, "lobes is 33"],
 	["alpha", 0.1, '"alpha" is not a key of a recipe for a set of tables'],
 ]

@@ -81,17 +81,17 @@ func test_a_table_has_one_texture_for_all_threads() -> void:
 
 
 func test_nobody_waits_while_the_ready_set_is_loaded() -> void:
-	var before: LobeTableSet = TableChoice._default_set
+	var before := TableChoice._sets.duplicate()
 	var cached: Resource = null
 	if ResourceLoader.has_cached(TableChoice.DEFAULT_SET):
 		cached = load(TableChoice.DEFAULT_SET)
 		cached.resource_path = ""
-	TableChoice._default_set = null
+	TableChoice._sets.clear()
 	var watch := Watch.new(TableChoice.DEFAULT_SET, LobeTableSet.new(), TableChoice._mutex)
 	ResourceLoader.add_resource_format_loader(watch, true)
 	var found := TableChoice.get_set(LobeMaterial3D.new())
 	ResourceLoader.remove_resource_format_loader(watch)
-	TableChoice._default_set = before
+	TableChoice._sets = before
 	if cached != null:
 		found.resource_path = ""
 		cached.take_over_path(TableChoice.DEFAULT_SET)

@@ -23,7 +23,7 @@ KNOWS = {
     # Shows a light through a table. It preloads what its shader includes.
     "material": (
         *("table", "light", "shaders", "clear_coat", "diffuse", "occlusion"),
-        *("detail", "msdf", "parallax", "triplanar", "vertices"),
+        *("detail", "msdf", "parallax", "sheen", "triplanar", "vertices"),
     ),
     # Parts that exports may leave out. They know those whom they serve, and these load them on demand.
     "clear_coat": (),
@@ -33,6 +33,7 @@ KNOWS = {
     "parallax": (),
     "triplanar": (),
     "vertices": (),
+    "sheen": (),
     "filters": (),
     "occlusion": (),
     "compatibility": ("pyramid",),
@@ -40,6 +41,7 @@ KNOWS = {
     "skies": ("light", "pyramid"),
     "probes": ("light", "pyramid"),
     "conversion": ("material", "table"),
+    "gltf": ("material", "table"),
     "warnings": ("light", "pyramid", "probes"),
 }
 

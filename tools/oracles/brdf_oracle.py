@@ -17,6 +17,10 @@ CASES = [
     for name in ("ward", "ward_bounded", "ggx")
     for alpha in ((0.1, 0.1), (0.05, 0.2), (0.5, 0.2))
     for view in ((0.0, 0.0), (40.0, 25.0), (75.0, 90.0))
+] + [
+    ("charlie", (alpha, alpha), view)
+    for alpha in (0.1, 0.5)
+    for view in ((0.0, 0.0), (40.0, 25.0), (75.0, 90.0))
 ]
 
 
@@ -25,8 +29,25 @@ def smith_lambda(v, alpha):
     return 0.5 * (sqrt(1.0 + slope2) - 1.0)
 
 
+def charlie_lambda(cosine, alpha):
+    """Estevez and Kulla 2017, eq. 3 and table 1."""
+
+    def curve(x):
+        rows = ((25.3245, 21.5473), (3.32435, 3.82987), (0.16801, 0.19823), (-1.27393, -1.97760), (-4.85967, -4.32054))
+        way = (1.0 - alpha) ** 2
+        a, b, c, d, e = (way * first + (1.0 - way) * last for first, last in rows)
+        return a / (1.0 + b * x**c) + d * x + e
+
+    return exp(curve(cosine)) if cosine < 0.5 else exp(2.0 * curve(0.5) - curve(1.0 - cosine))
+
+
 def brdf(name, i, o, h, alpha):
     """f(i, o); h is the unit half-vector."""
+    if name == "charlie":
+        sine = sqrt(max(1.0 - h[2] ** 2, 0.0))
+        d = (2.0 + 1.0 / alpha[0]) * sine ** (1.0 / alpha[0]) / (2.0 * pi)
+        g = 1.0 / (1.0 + charlie_lambda(min(i[2], 1.0), alpha[0]) + charlie_lambda(min(o[2], 1.0), alpha[0]))
+        return d * g / (4.0 * i[2] * o[2])
     area = alpha[0] * alpha[1]
     e = ((h[0] / alpha[0]) ** 2 + (h[1] / alpha[1]) ** 2) / h[2] ** 2
     if name == "ward":

@@ -9,6 +9,7 @@ extends EditorPlugin
 const BakeDialog := preload("bake/bake_dialog.gd")
 const BakeQueue := preload("bake/bake_queue.gd")
 const ExportPlugin := preload("export/export_plugin.gd")
+const GltfImport := preload("import/gltf_import.gd")
 const LightBakes := preload("probes/light_bakes.gd")
 const LightDialog := preload("probes/light_dialog.gd")
 const MaterialConversionPlugin := preload("conversion/material_conversion_plugin.gd")
@@ -32,6 +33,7 @@ var _bakes: BakeQueue
 var _bake_dialog: BakeDialog
 var _table_inspector: TableInspector
 var _importers: Array[EditorImportPlugin] = []
+var _gltf_import: GltfImport
 var _warning_inspector: WarningInspector
 var _tools_menu: ToolsMenu
 var _probe_gizmo: ProbeGizmo
@@ -64,6 +66,9 @@ func _enter_tree() -> void:
 	_importers = [panoramas, MeasuredImporter.new()]
 	for importer in _importers:
 		add_import_plugin(importer)
+	_gltf_import = GltfImport.new()
+	_gltf_import.start()
+	add_scene_post_import_plugin(_gltf_import)
 	_warning_inspector = WarningInspector.new()
 	add_inspector_plugin(_warning_inspector)
 	# Freed with the plugin.
@@ -107,6 +112,9 @@ func _exit_tree() -> void:
 	for importer in _importers:
 		remove_import_plugin(importer)
 	_importers.clear()
+	remove_scene_post_import_plugin(_gltf_import)
+	_gltf_import.stop()
+	_gltf_import = null
 	_bake_dialog.queue_free()
 	# A bake under way stops before the queue is gone.
 	_bakes.stop()

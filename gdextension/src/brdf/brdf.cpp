@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "base/one_line.h"
+#include "brdf/charlie.h"
 #include "brdf/ggx.h"
 #include "brdf/measured.h"
 #include "brdf/ward.h"
@@ -13,14 +14,18 @@ namespace lobelight {
 
 namespace {
 
+constexpr char kCharlie[] = "charlie";
+
 bool valid_width(double alpha) { return alpha >= kMinAlpha && alpha <= kMaxAlpha; }
 
 }  // namespace
 
 const std::vector<std::string>& brdf_names() {
-  static const std::vector<std::string> names{"ward", "ward_bounded", "ggx"};
+  static const std::vector<std::string> names{"ward", "ward_bounded", "ggx", kCharlie};
   return names;
 }
+
+bool is_always_isotropic(std::string_view name) { return name == kCharlie; }
 
 void validate_brdf(std::string_view name, const glm::dvec2& alpha) {
   const bool is_file = is_measured_file(name);
@@ -30,6 +35,11 @@ void validate_brdf(std::string_view name, const glm::dvec2& alpha) {
   if (!estimated && (!valid_width(alpha.x) || !valid_width(alpha.y))) {
     message << "alpha is (" << alpha.x << ", " << alpha.y << "), but both widths must be between "
             << kMinAlpha << " and " << kMaxAlpha << ".";
+    throw std::invalid_argument(message.str());
+  }
+  if (is_always_isotropic(name) && (alpha.x != alpha.y || alpha.x > 1.0)) {
+    message << "alpha is (" << alpha.x << ", " << alpha.y << "), but the widths of \"" << name
+            << "\" must be equal and at most 1.";
     throw std::invalid_argument(message.str());
   }
   const auto& names = brdf_names();
@@ -50,6 +60,7 @@ std::unique_ptr<Brdf> make_brdf(std::string_view name, const glm::dvec2& alpha,
   if (name == "ward") return std::make_unique<Ward>(alpha);
   if (name == "ward_bounded") return std::make_unique<WardBounded>(alpha);
   if (name == "ggx") return std::make_unique<Ggx>(alpha);
+  if (name == kCharlie) return std::make_unique<Charlie>(alpha.x);
   const std::string path(name);
   return std::make_unique<MeasuredBrdf>(read_measured(path),
                                         path.substr(path.find_last_of("/\\") + 1), alpha, progress);

@@ -244,9 +244,14 @@ void validate(const SetRecipe& recipe) {
              << "\", but sets of tables are fitted of models only.";
     refuse(sentence);
   }
-  if (recipe.views.x < 2 || recipe.views.y < 2) {
+  if (recipe.views.x < 2 || recipe.views.y < 1) {
     sentence << "views is (" << recipe.views.x << ", " << recipe.views.y
-             << "), but a set needs at least 2 elevations and 2 azimuths.";
+             << "), but a set needs at least 2 elevations and 1 azimuth.";
+    refuse(sentence);
+  }
+  if (recipe.views.y > 1 && is_always_isotropic(recipe.brdf)) {
+    sentence << "views is (" << recipe.views.x << ", " << recipe.views.y << "), but \""
+             << recipe.brdf << "\" is isotropic: a set of it has 1 azimuth.";
     refuse(sentence);
   }
   for (const double width : {recipe.widths.front(), recipe.widths.back()}) {

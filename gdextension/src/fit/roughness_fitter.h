@@ -21,7 +21,9 @@ struct SetRecipe {
   // The widths on each axis, rising; at least two. Steps of a factor √2 or less interpolate well.
   std::vector<double> widths;
   int lobes = 8;
-  glm::ivec2 views{16, 8};  // of an anisotropic table; isotropic ones have views.x × 1
+  // Of an anisotropic table; isotropic ones have views.x × 1. With views.y = 1, the set has these
+  // only.
+  glm::ivec2 views{16, 8};
   std::uint64_t seed = 0;
   int threads = 0;  // zero or negative: every core
 };
@@ -38,7 +40,7 @@ class SetLayout {
   explicit SetLayout(const SetRecipe& recipe);
 
   int levels() const { return levels_; }
-  int pairs() const { return levels_ * (levels_ + 1) / 2; }
+  int pairs() const { return views_.y > 1 ? levels_ * (levels_ + 1) / 2 : 0; }
   int tables() const { return pairs() + levels_; }
 
   int pair_table(int x, int y) const { return x * (x + 1) / 2 + y; }

@@ -84,8 +84,9 @@ func _export_file(path: String, type: String, _features: PackedStringArray) -> v
 			skip()
 			return
 	if path == TABLE_CHOICE:
-		# It loads the set by its path, which an export of chosen scenes does not know of.
+		# It loads sets by their paths, which an export of chosen scenes does not know of.
 		_export_table(TableChoice.DEFAULT_SET, false)
+		_export_table(TableChoice.SHEEN_SET, false)
 	elif path.begins_with(Reach.TABLES) and _export_table(path, true):
 		skip()
 	if _diet != null and _diet.code.files.has(path):

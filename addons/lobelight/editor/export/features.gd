@@ -20,6 +20,8 @@ const MSDF := "distance fields"
 const PARALLAX := "height maps"
 const TRIPLANAR := "triplanar mapping"
 const VERTICES := "billboards and moved vertices"
+const SHEEN := "sheen"
+const GLTF := "import of glTF files"
 const WARNINGS := "warnings, which the editor shows"
 
 ## Folders of the run time that nothing but the feature needs. Each of them stays or goes whole.
@@ -34,6 +36,8 @@ const FOLDERS: Dictionary[String, String] = {
 	"msdf": MSDF,
 	"parallax": PARALLAX,
 	"probes": OnDemand.PLACES,
+	"sheen": SHEEN,
+	"gltf": GLTF,
 	"rendering_device": OnDemand.RENDERING_DEVICE,
 	"skies": OnDemand.SKIES,
 	"triplanar": TRIPLANAR,
@@ -55,9 +59,11 @@ const _WORDS: Dictionary[String, String] = {
 	COAT: "clearcoat\\w*",
 	DIFFUSE: "metallic|metallic_texture|orm_texture",
 	OCCLUSION: "ao_enabled|ao_texture|orm_texture|normal_enabled|normal_texture",
+	SHEEN: "sheen_\\w+",
 	OnDemand.FILTERS: "filter",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
-	OnDemand.CONVERSION: "from_standard|to_standard|get_losses_from",
+	GLTF: "LobeGLTFExtension",
+	OnDemand.CONVERSION: "LobeGLTFExtension|from_standard|to_standard|get_losses_from",
 	OnDemand.PLACES: "LobeProbe3D|own_world_3d|world_3d|fade_time",
 	DETAIL: "detail_\\w+",
 	MSDF: "albedo_texture_msdf|msdf_\\w+",
@@ -71,7 +77,7 @@ const _WORDS: Dictionary[String, String] = {
 }
 # What a material has that a script gives its properties.
 const _OF_MATERIALS: PackedStringArray = [
-	COAT, DETAIL, DIFFUSE, MSDF, OCCLUSION, PARALLAX, TRIPLANAR, VERTICES
+	COAT, DETAIL, DIFFUSE, MSDF, OCCLUSION, PARALLAX, SHEEN, TRIPLANAR, VERTICES
 ]
 const _METHOD := "rendering/renderer/rendering_method"
 const _FALLBACK := "rendering/rendering_device/fallback_to_opengl3"
@@ -140,6 +146,8 @@ func look_at_material(file: String, material: LobeMaterial3D) -> void:
 		add(TRIPLANAR, file)
 	if material.moves_vertices():
 		add(VERTICES, file)
+	if material.has_sheen():
+		add(SHEEN, file)
 
 
 ## A line of a script, or the path of an animation's track.

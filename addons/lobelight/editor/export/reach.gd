@@ -57,7 +57,8 @@ var _type := RegEx.create_from_string(
 # Materials with widths that the line does not tell.
 var _other_widths := RegEx.create_from_string(
 	(
-		"\\bextends\\s+(LobeMaterial3D|.*lobe_material_3d)|\\b(from_standard|table_at)\\("
+		"\\bLobeGLTFExtension\\b|\\bextends\\s+(LobeMaterial3D|.*lobe_material_3d)"
+		+ "|\\b(from_standard|table_at)\\("
 		+ "|\\b(table|table_set)\\s*=\\s*null\\b"
 	)
 )
@@ -199,6 +200,10 @@ func _conclude() -> void:
 		own_tables.append([table.users[0], table.table])
 	for file in _made_by_script:
 		_include(file, LobeMaterial3D.new())
+	if features.reached.has(Features.SHEEN):
+		var sheen := _get_set(TableChoice.SHEEN_SET)
+		sheen.whole_because = "it is small"
+		sheen.add_user(features.reached[Features.SHEEN])
 	for path in _named_sets:
 		var named := _get_set(path)
 		# The script may ask it for any table.

@@ -49,7 +49,7 @@ static func _find_needed(tables: LobeTableSet, reach: SetReach) -> Dictionary[in
 		var ends := _find_widths(tables, reach)
 		for width in range(ends.x, ends.y + 1):
 			needed[_isotropic(tables, width)] = true
-			if not reach.is_isotropic():
+			if not reach.is_isotropic() and not tables.is_isotropic():
 				for narrow in range(ends.x, width + 1):
 					needed[_pair(width, narrow)] = true
 	for surface in reach.surfaces:
@@ -69,14 +69,15 @@ static func _pair(wide: int, narrow: int) -> int:
 
 
 static func _isotropic(tables: LobeTableSet, width: int) -> int:
-	return _pair(tables.widths.size(), 0) + width
+	return tables.get_pair_count() + width
 
 
 func _make(tables: LobeTableSet, ends: Vector2i, needed: Dictionary[int, bool]) -> LobeTableSet:
 	var numbers: PackedInt32Array = []
-	for wide in range(ends.x, ends.y + 1):
-		for narrow in range(ends.x, wide + 1):
-			numbers.append(_pair(wide, narrow))
+	if not tables.is_isotropic():
+		for wide in range(ends.x, ends.y + 1):
+			for narrow in range(ends.x, wide + 1):
+				numbers.append(_pair(wide, narrow))
 	for width in range(ends.x, ends.y + 1):
 		numbers.append(_isotropic(tables, width))
 	var bytes := PackedByteArray()

@@ -281,6 +281,31 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 		clearcoat_texture = value
 		_queue_update()
 
+@export_group("Sheen", "sheen_")
+## Whether there are upright fibres over the material, as on velvet and other cloth. They have four
+## lobes of their own, fitted to Charlie's BRDF, and take their light from what lies below. The
+## engine's own lights do not show them. [BaseMaterial3D] has none.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var sheen_enabled := false:
+	set(value):
+		sheen_enabled = value
+		_queue_update()
+## The colour of the fibres.
+@export_color_no_alpha var sheen_color := Color.WHITE:
+	set(value):
+		sheen_color = value
+		_queue_update()
+## Multiplied with [member sheen_color].
+@export var sheen_texture: Texture2D:
+	set(value):
+		sheen_texture = value
+		_queue_update()
+## How much the fibres diverge: with little, the sheen is at the rim only. What is less than 0.2 is
+## taken for 0.2.
+@export_range(0.0, 1.0, 0.01) var sheen_roughness := 0.5:
+	set(value):
+		sheen_roughness = clampf(value, 0.0, 1.0)
+		_queue_update()
+
 @export_group("Anisotropy", "anisotropy_")
 ## Whether highlights are wider along the tangent than across, as on brushed metal. Meshes need
 ## tangents for it.
@@ -663,6 +688,11 @@ func is_occluded() -> bool:
 ## Whether there is a coat.
 func is_coated() -> bool:
 	return clearcoat_enabled and clearcoat > 0.0
+
+
+## Whether there is a sheen.
+func has_sheen() -> bool:
+	return sheen_enabled and sheen_color.get_luminance() > 0.0
 
 
 ## [member anisotropy], or 0 where it is not enabled.

@@ -51,6 +51,7 @@ const _INCLUDES: Array[ShaderInclude] = [
 	preload("../occlusion/occlusion.gdshaderinc"),
 	preload("../msdf/msdf.gdshaderinc"),
 	preload("../parallax/parallax.gdshaderinc"),
+	preload("../sheen/sheen.gdshaderinc"),
 	preload("../shaders/specular.gdshaderinc"),
 	preload("../triplanar/triplanar.gdshaderinc"),
 	preload("../shaders/vertex.gdshaderinc"),

@@ -28,6 +28,7 @@ static func apply(surface: LobeBaseMaterial3D, choice: TableChoice) -> void:
 	var material := surface.get_rid()
 	_apply_table(material, choice)
 	_apply_coat(surface, choice)
+	_apply_sheen(surface, choice)
 	_apply_textures(surface)
 	if surface.is_dielectric():
 		_give(material, &"lobelight_metallic", surface.metallic)
@@ -69,6 +70,18 @@ static func _apply_coat(surface: LobeBaseMaterial3D, choice: TableChoice) -> voi
 	_give(material, &"lobelight_coat_lookup", Vector3(lookup.x, lookup.y, lookup.w))
 	var amount := Vector2(surface.clearcoat, surface.clearcoat_roughness)
 	_give(material, &"lobelight_coat_amount", amount)
+
+
+static func _apply_sheen(surface: LobeBaseMaterial3D, choice: TableChoice) -> void:
+	if choice.sheen == null:
+		return
+	var material := surface.get_rid()
+	var lookup := choice.sheen.get_lookup()
+	_give(material, &"lobelight_sheen_table", choice.sheen.get_texture().get_rid())
+	_give(material, &"lobelight_sheen_alpha", choice.sheen.alpha.x)
+	_give(material, &"lobelight_sheen_lookup", Vector3(lookup.x, lookup.y, lookup.w))
+	_give(material, &"lobelight_sheen_tint", _linear(surface.sheen_color))
+	_give_texture(material, &"lobelight_sheen_texture", surface.sheen_texture)
 
 
 static func _apply_textures(surface: LobeBaseMaterial3D) -> void:

@@ -38,6 +38,10 @@ static func count_fetches(
 		environment += choice.coat.lobe_count
 		table += choice.coat.lobe_count
 		samplers += 1
+	if choice.sheen != null:
+		environment += choice.sheen.lobe_count
+		table += choice.sheen.lobe_count
+		samplers += 1
 	if "PLACED" in defines:
 		samplers += _count_placed_samplers(defines)
 	return {"environment": environment, "table": table, "samplers": samplers}
@@ -92,6 +96,8 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 	defines.append_array(LightRegistry.get_defines(surface.get_rid()))
 	if choice.coat != null:
 		defines.append("COAT_LOBES %d" % choice.coat.lobe_count)
+	if choice.sheen != null:
+		defines.append("SHEEN")
 	if surface.emits():
 		defines.append("EMISSION")
 	_add_alpha(surface, defines)
@@ -146,6 +152,8 @@ static func _add_textures(
 		defines.append("FLOWMAP")
 	if surface.clearcoat_texture != null and choice.coat != null:
 		defines.append("COAT_TEXTURE")
+	if surface.sheen_texture != null and choice.sheen != null:
+		defines.append("SHEEN_TEXTURE")
 	if surface.emission_texture != null and surface.emits():
 		defines.append("EMISSION_TEXTURE")
 		if surface.emission_on_uv2:

@@ -5,9 +5,10 @@ extends RefCounted
 const Widths := preload("../table/widths.gd")
 const WidthsTexture := preload("../table/widths_texture.gd")
 const DEFAULT_SET := "res://addons/lobelight/tables/ggx_8.res"
+const SHEEN_SET := "res://addons/lobelight/tables/charlie_4.res"
 
 # Kept from one look to the next: loading a set takes a while.
-static var _default_set: LobeTableSet
+static var _sets: Dictionary[String, LobeTableSet] = {}
 static var _mutex := Mutex.new()
 
 ## The lobes, where one table serves the whole surface.
@@ -16,6 +17,8 @@ var table: LobeTable
 var widths_texture: WidthsTexture
 ## The clear coat's lobes, or [code]null[/code].
 var coat: LobeTable
+## The sheen's lobes, or [code]null[/code].
+var sheen: LobeTable
 var is_isotropic := true
 var lobe_count := 1
 ## Whether the lobes come from a set, which goes with roughness and anisotropy.
@@ -33,7 +36,7 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 	# Sets find a shared table again only while somebody holds it, and the rendering server goes on
 	# drawing with its texture.
 	@warning_ignore("unused_variable")
-	var held := [table, widths_texture, coat]
+	var held := [table, widths_texture, coat, sheen]
 	roughness = surface.roughness
 	anisotropy = surface.get_shown_anisotropy()
 	rotation = surface.anisotropy_rotation
@@ -49,6 +52,9 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 	if surface.is_coated() and tables != null:
 		var width := Widths.from_coat_roughness(surface.clearcoat_roughness)
 		coat = tables.shared_table_at(Vector2(width, width))
+	sheen = null
+	if surface.has_sheen():
+		_choose_sheen(surface)
 
 
 func _choose_from(tables: LobeTableSet, surface: LobeBaseMaterial3D) -> void:
@@ -57,6 +63,8 @@ func _choose_from(tables: LobeTableSet, surface: LobeBaseMaterial3D) -> void:
 	if anisotropy < 0.0 and rotation != 0.0 and surface.anisotropy_flowmap == null:
 		anisotropy = Widths.exchanged(anisotropy)
 		rotation += 0.5 * PI
+	if tables.is_isotropic():
+		anisotropy = 0.0
 	lobe_count = tables.lobe_count
 	is_isotropic = anisotropy == 0.0
 	if surface.varies() and WidthsTexture.find_problem(tables.widths, is_isotropic).is_empty():
@@ -64,6 +72,13 @@ func _choose_from(tables: LobeTableSet, surface: LobeBaseMaterial3D) -> void:
 	else:
 		table = tables.shared_table_at(Widths.from_roughness(roughness, anisotropy))
 		is_isotropic = table.is_isotropic()
+
+
+func _choose_sheen(surface: LobeBaseMaterial3D) -> void:
+	var tables := _get_ready_set(SHEEN_SET)
+	if tables != null:
+		var width := surface.sheen_roughness * surface.sheen_roughness
+		sheen = tables.shared_table_at(Vector2.ONE * maxf(width, tables.widths[0]))
 
 
 # A material's own table, or one that stands in for it.
@@ -89,14 +104,19 @@ static func get_set(surface: LobeBaseMaterial3D) -> LobeTableSet:
 		return surface.table_set if surface.table_set.get_problem().is_empty() else null
 	if surface.table != null and not surface.is_coated():
 		return null
+	return _get_ready_set(DEFAULT_SET)
+
+
+# Null if there is none.
+static func _get_ready_set(path: String) -> LobeTableSet:
 	_mutex.lock()
-	var found := _default_set
+	var found: LobeTableSet = _sets.get(path)
 	_mutex.unlock()
 	# Not under the lock: who loads may wait for other threads, and these for the lock. The loader
 	# gives all of them the same set.
-	if found == null and ResourceLoader.exists(DEFAULT_SET):
-		found = load(DEFAULT_SET)
+	if found == null and ResourceLoader.exists(path):
+		found = load(path)
 		_mutex.lock()
-		_default_set = found
+		_sets[path] = found
 		_mutex.unlock()
 	return found

@@ -9,7 +9,8 @@ extends Resource
 ## costs at run time what any table of its lobes does.
 ## [br][br]
 ## A set holds one anisotropic table for every pair of [member widths] whose first is not the
-## smaller, and one isotropic table for every width. [code]res://addons/lobelight/tables[/code] has
+## smaller, and one isotropic table for every width. Sets with one azimuth in [member views] hold
+## the latter only: the sheen of cloth has one width. [code]res://addons/lobelight/tables[/code] has
 ## ready sets; [code]./dev bake-tables[/code] makes them, and sets of other BRDFs and lobe counts.
 
 ## The most [member widths].
@@ -35,7 +36,8 @@ const _SHARED_STEPS := 256.0
 	set(value):
 		lobe_count = value
 		_invalidate()
-## Views of an anisotropic table's grid: elevations, azimuths. Isotropic tables have one azimuth.
+## Views of an anisotropic table's grid: elevations, azimuths. Isotropic tables have one azimuth,
+## and a set with one has these only.
 @export var views := Vector2i.ZERO:
 	set(value):
 		views = value
@@ -97,9 +99,9 @@ func get_problem() -> String:
 func _find_problem() -> String:
 	if lobe_count < 1 or lobe_count > LobeTable.MAX_LOBES:
 		return "A set has 1 to %d lobes, this one has %d." % [LobeTable.MAX_LOBES, lobe_count]
-	if views.x < 2 or views.y < 2:
+	if views.x < 2 or views.y < 1:
 		return (
-			"A set has at least 2 elevations and 2 azimuths, this one has %d and %d."
+			"A set has at least 2 elevations and 1 azimuth, this one has %d and %d."
 			% [views.x, views.y]
 		)
 	var problem := _get_widths_problem()
@@ -110,8 +112,15 @@ func _find_problem() -> String:
 
 ## How many anisotropic tables the set holds.
 func get_pair_count() -> int:
+	if is_isotropic():
+		return 0
 	@warning_ignore("integer_division")
 	return widths.size() * (widths.size() + 1) / 2
+
+
+## Whether the set holds isotropic tables only.
+func is_isotropic() -> bool:
+	return views.y == 1
 
 
 ## How many tables the set holds.
@@ -128,7 +137,8 @@ func get_table_data(table: int) -> PackedByteArray:
 ## The table of any widths, for use in a [LobeMaterial3D]; [code]null[/code], and an error, if the
 ## set is incomplete or [param alpha] is not positive.
 ## [br][br]
-## Tables are interpolated in the logarithms of the widths. Equal widths give an isotropic table.
+## Tables are interpolated in the logarithms of the widths. Equal widths give an isotropic table,
+## and sets of isotropic tables give that of the geometric mean of the widths.
 ## Widths below the first or above the last of [member widths] are taken for these, each by itself,
 ## and are so in the result's [member LobeTable.alpha]. A first width smaller than the second gives
 ## the table of the exchanged widths, seen from the other axis.
@@ -139,7 +149,7 @@ func table_at(alpha: Vector2) -> LobeTable:
 	if problem:
 		push_error("LobeTableSet.table_at: " + problem)
 		return null
-	var used := alpha.clampf(widths[0], widths[-1])
+	var used := _find_used(alpha)
 	var table := LobeTable.new()
 	table.brdf = brdf
 	table.alpha = used
@@ -158,7 +168,7 @@ func table_at(alpha: Vector2) -> LobeTable:
 ## What [method table_at] mixes for widths: tables, counted as [member image] has them, and the
 ## share of each. The widths must be positive and the set complete.
 func get_shares(alpha: Vector2) -> Dictionary[int, float]:
-	var used := alpha.clampf(widths[0], widths[-1])
+	var used := _find_used(alpha)
 	if is_equal_approx(used.x, used.y):
 		return _isotropic_shares(used.x)
 	return _pair_shares(maxf(used.x, used.y), minf(used.x, used.y))
@@ -167,7 +177,7 @@ func get_shares(alpha: Vector2) -> Dictionary[int, float]:
 ## As [method table_at], but one table for all who ask for the same widths while somebody holds it.
 ## Widths are rounded to 0.27 %.
 func shared_table_at(alpha: Vector2) -> LobeTable:
-	var used := alpha.clampf(widths[0], widths[-1])
+	var used := _find_used(alpha)
 	var steps := Vector2(log(used.x), log(used.y)) * (_SHARED_STEPS / log(2.0))
 	var key := Vector2i(steps.round())
 	_mutex.lock()
@@ -194,6 +204,13 @@ func get_widths_texture(isotropic: bool) -> WidthsTexture:
 		_textures[isotropic] = weakref(texture)
 	_mutex.unlock()
 	return texture
+
+
+# Widths within the set's.
+func _find_used(alpha: Vector2) -> Vector2:
+	if is_isotropic():
+		alpha = Vector2.ONE * sqrt(alpha.x * alpha.y)
+	return alpha.clampf(widths[0], widths[-1])
 
 
 # As WidthsTexture takes them.
