@@ -273,3 +273,16 @@ need_android() {
   fi
   export ANDROID_KIT
 }
+
+# need_mitsuba: sets PYTHON with Mitsuba in it, and exports the LLVM through which that compiles. What Debian bookworm's
+# default, 14, and 15 make of its code does not run.
+need_mitsuba() {
+  local probes=("file /usr/lib/*/libLLVM.so.19* libllvm19") llvm
+  llvm=$(compgen -G "/usr/lib/*/libLLVM.so.[12][0-9].*" | sort -V | tail -n 1) || llvm=""
+  if [[ -z ${DRJIT_LIBLLVM_PATH:-}$llvm ]]; then
+    install_packages "${probes[@]}"
+    llvm=$(compgen -G "/usr/lib/*/libLLVM.so.19*" | tail -n 1)
+  fi
+  export DRJIT_LIBLLVM_PATH=${DRJIT_LIBLLVM_PATH:-$llvm}
+  need_python crosscheck
+}

@@ -212,6 +212,9 @@ func _get_dictionary(from: Dictionary, key: String, of: String) -> Dictionary:
 
 func _get_number(from: Dictionary, key: String, usual: float, low: float, high: float) -> float:
 	var value: Variant = from.get(key, usual)
+	# As drafts of the extensions had it, and files still have.
+	if value is Array and (value as Array).size() == 1:
+		value = (value as Array)[0]
 	if (value is float or value is int) and is_finite(value as float):
 		var number: float = value
 		if number < low or number > high:
