@@ -1,6 +1,6 @@
 extends SceneTree
-## Draws the glTF files of a folder, imported as at run time, each to NAME.f32: rows of four floats a
-## pixel, linear radiance. `--folder DIR`; see gltf.py.
+## Draws the glTF files of a folder, imported as at run time, each to NAME.f32: rows of four floats
+## a pixel, linear radiance. `--folder DIR`; see gltf.py.
 
 const PANORAMA := "res://demo/environments/hall.exr"
 const SIDE := 96

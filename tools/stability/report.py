@@ -30,6 +30,7 @@ SHADER_TITLES = {
     "shader look-up": "Lobes of any view",
     "shader reflection": "Reflected light",
     "shader coat": "Clear coat",
+    "shader sheen": "Sheen",
     "shader diffuse": "Diffuse light",
     "shader material": "Whole materials",
     "shader colour": "Colours",

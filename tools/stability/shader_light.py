@@ -1,4 +1,4 @@
-"""Probes that fetch the environment: whole reflections, the coat, diffuse light.
+"""Probes that fetch the environment: whole reflections, the coat, the sheen, diffuse light.
 
 In the cube map `levels` each level has one colour, so that its light says at which level it was looked up; in `directions`
 the light is 1 + d/2, which says where. Between them they know what a look-up is. `flat` is white: what is reflected of it is
@@ -234,6 +234,57 @@ def coat_probes(quick):
             yield table, probe
 
 
+# The sheen
+
+
+def expect_sheen(table, cube, values, row):
+    below, colour = vector(row[:3]), vector(row[4:7])
+    normal, view = vector(row[8:11]), vector(row[12:15])
+    tangent = shader.any_tangent(normal)
+    axes = (tangent, shader.cross(normal, tangent), normal)
+    local = tuple(shader.dot(view, axis) for axis in axes)
+    totals, off = sums(table, local, cube, values, lambda d: shader.columns_times(axes, d))
+    share, share_off, share_medium = fresnel(totals[2], totals[3], mpf(1), mpf(1), off[2:])
+    kept = 1 - max(colour) * min(share, mpf(1))
+    most = float(max(colour))
+    checks = []
+    for n in range(3):
+        light_n, light_off, light_medium = fresnel(totals[0][n], totals[1][n], mpf(1), mpf(1), off[:2])
+        reflected = colour[n] * light_n / max(share, mpf(1))
+        size, tint = float(abs(below[n])), float(colour[n])
+        seen = float(abs(light_n))
+        bound = tint * (light_off + seen * share_off) + most * share_off * size
+        bound += (6 * U + DIVISION) * (size + tint * seen)
+        medium = tint * (light_medium + seen * share_medium) + most * share_medium * size
+        checks.append(Near((n,), (below[n] * kept + reflected,), bound, "radiance", medium))
+    return checks
+
+
+def sheen_probes(quick):
+    table = odd_table("table_sheen", 4, 16, 0, (0.4, 0.4), seed=300)
+    for cube in ("levels", "directions"):
+        values = light(LEVELS_SIZE if cube == "levels" else 1, "disc", 0.0, cube)
+        probe = Probe(
+            f"sheen_{cube}", "shader sheen", "sheen", 3, partial(expect_sheen, table, cube, values), light=values
+        )
+        probe.has_medium = True
+        lookup = table.lookup()
+        probe.textures = {"lobelight_sheen_table": table.name}
+        probe.uniforms = {
+            "lobelight_sheen_alpha": table.alpha[:1],
+            "lobelight_sheen_lookup": (lookup[0], lookup[1], lookup[3]),
+        }
+        rows = []
+        for frame in (((1, 0, 0), (0, 1, 0), (0, 0, 1)), turn(9)):
+            for elevation in (0.0, 30.0, 89.0, 91.0) if quick else (0.0, 10.0, 30.0, 50.0, 70.0, 89.0, 91.0):
+                local = view_at(elevation, 77.0)
+                view = [sum(frame[n][axis] * local[n] for n in range(3)) for axis in range(3)]
+                for colour in ((1.0, 1.0, 1.0), (0.8, 0.3, 0.0)):
+                    rows.append((0.5, 2.0, 0.0, 0.0, *colour, 0.0, *frame[2], 0, *view, 0))
+        probe.add(f"sheen, {cube}", rows)
+        yield table, probe
+
+
 # Diffuse light
 
 
@@ -270,7 +321,8 @@ def diffuse_probes(quick):
 
 def probes(quick):
     """(tables, probes)."""
-    with_tables = [*reflection_probes(quick), *coat_probes(quick)]
-    return [table for table, _probe in with_tables], [*(p for _table, p in with_tables), *diffuse_probes(quick)]
+    with_tables = [*reflection_probes(quick), *coat_probes(quick), *sheen_probes(quick)]
+    tables = list({table.name: table for table, _probe in with_tables}.values())
+    return tables, [*(p for _table, p in with_tables), *diffuse_probes(quick)]
 
 
