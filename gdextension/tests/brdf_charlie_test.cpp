@@ -1,10 +1,9 @@
-#include "brdf/charlie.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 #include "base/pi.h"
+#include "brdf/charlie.h"
 #include "fit/slice.h"
 #include "fit/table_fitter.h"
 #include "sg/mixture.h"

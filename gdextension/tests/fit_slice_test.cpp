@@ -8,9 +8,9 @@
 
 #include "base/pi.h"
 #include "brdf_oracle.h"
-#include "models.h"
 #include "fit/mirror.h"
 #include "fit/slice.h"
+#include "models.h"
 #include "statistics.h"
 
 namespace lobelight {

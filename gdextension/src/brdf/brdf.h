@@ -59,8 +59,8 @@ class Brdf {
 // Names that make_brdf() knows, in the order in which messages list them.
 const std::vector<std::string>& brdf_names();
 
-// Whether the model called `name` is isotropic for any width: its two widths must then be equal, and
-// at most 1.
+// Whether the model called `name` is isotropic for any width: its two widths must then be equal,
+// and at most 1.
 bool is_always_isotropic(std::string_view name);
 
 // Widths that make_brdf() accepts on each axis.

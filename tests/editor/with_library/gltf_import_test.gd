@@ -57,20 +57,27 @@ const FILE := {
 func before() -> void:
 	Kit.get_plugin(get_tree())
 	DirAccess.make_dir_absolute(FOLDER)
+	_write()
+	await _scan(true)
 
 
 func after() -> void:
 	for file in DirAccess.get_files_at(FOLDER):
 		DirAccess.remove_absolute(FOLDER.path_join(file))
 	DirAccess.remove_absolute(FOLDER)
-	EditorInterface.get_resource_filesystem().scan()
-	await Kit.wait_for_scan(get_tree())
+	await _scan(false)
+
+
+# The scan begins and ends some frames later.
+func _scan(is_there: bool) -> void:
+	var files := EditorInterface.get_resource_filesystem()
+	files.scan()
+	var is_known := func() -> bool:
+		return not files.is_scanning() and (files.get_filesystem_path(FOLDER) != null) == is_there
+	await Kit.wait_until(get_tree(), is_known)
 
 
 func test_the_import_option_says_what_materials_become() -> void:
-	_write()
-	EditorInterface.get_resource_filesystem().scan()
-	await Kit.wait_for_scan(get_tree())
 	# The engine's importer with the option's default.
 	var kept := _import(GltfImport.Materials.KEEP) as StandardMaterial3D
 	assert_object(kept).is_not_null()
