@@ -44,10 +44,7 @@ const ASKING := [
 	["add_child(LobeEnvironment3D.new())", [3, 4]],
 	["material.set(property, 0.1)", [0, 1, 2, 3, 4, 7, 8, 9, 10, 11, 12, 13]],
 	["material.sheen_enabled = true", [13]],
-	[
-		"var extension := LobeGLTFExtension.new()",
-		[0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11, 12, 13, 14]
-	],
+	["var extension := LobeGLTFExtension.new()", [0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11, 12, 13, 14]],
 	["LobeMaterial3D.get_losses_from(material)", [5]],
 	['material.call("to_standard")', [5]],
 	["add_child(LobeProbe3D.new())", [3, 4, 6]],
