@@ -23,6 +23,8 @@ const FEATURES: PackedStringArray = [
 	"vertices/vertices.gdshaderinc",
 	"sheen/sheen.gdshaderinc",
 	"gltf/lobe_gltf_extension.gd",
+	"fades/fades.gdshaderinc",
+	"lamps/lamps.gdshaderinc",
 ]
 
 ## A scene, and which of FEATURES it needs.
@@ -42,9 +44,15 @@ const ASKING := [
 	["$Light.filter = 1", [2]],
 	["$Light.panorama = null", [3, 4]],
 	["add_child(LobeEnvironment3D.new())", [3, 4]],
-	["material.set(property, 0.1)", [0, 1, 2, 3, 4, 7, 8, 9, 10, 11, 12, 13]],
+	["material.set(property, 0.1)", [0, 1, 2, 3, 4, 7, 8, 9, 10, 11, 12, 13, 15, 16]],
 	["material.sheen_enabled = true", [13]],
-	["var extension := LobeGLTFExtension.new()", [0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11, 12, 13, 14]],
+	["material.proximity_fade_enabled = true", [15]],
+	["material.refraction_enabled = true", [15]],
+	["material.rim_enabled = true", [16]],
+	[
+		"var extension := LobeGLTFExtension.new()",
+		[0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16]
+	],
 	["LobeMaterial3D.get_losses_from(material)", [5]],
 	['material.call("to_standard")', [5]],
 	["add_child(LobeProbe3D.new())", [3, 4, 6]],

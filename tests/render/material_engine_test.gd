@@ -66,7 +66,9 @@ func test_highlights_lie_as_godots() -> void:
 	for kind: String in ["brushed", "brushed across", "flow"]:
 		var godots := _standard(kind)
 		godots.roughness = 0.45
-		sphere.material_override = LobeMaterial3D.from_standard(godots)
+		var made := LobeMaterial3D.from_standard(godots)
+		made.disable_ambient_light = false
+		sphere.material_override = made
 		var ours := _axes(await _view.capture())
 		_view.add_child(lamp)
 		sphere.material_override = godots

@@ -289,21 +289,3 @@ func test_questions_leave_what_is_drawn() -> void:
 	material.get_shader_code()
 	assert_int(material._choice.table.get_instance_id()).is_equal(table)
 	assert_int(material._choice.coat.get_instance_id()).is_equal(coat)
-
-
-# What both materials have, they have alike.
-func test_properties_are_named_and_typed_as_standard_materials() -> void:
-	var made := LobeMaterial3D.new()
-	var ours: Dictionary[String, Dictionary] = {}
-	for property: Dictionary in (LobeBaseMaterial3D as Script).get_script_property_list():
-		ours[property["name"]] = property
-	var usual := StandardMaterial3D.new()
-	var checked := 0
-	for property: Dictionary in ClassDB.class_get_property_list(&"BaseMaterial3D", true):
-		var name: String = property["name"]
-		if not ours.has(name) or property["usage"] & PROPERTY_USAGE_STORAGE == 0:
-			continue
-		assert_int(ours[name]["type"]).append_failure_message(name).is_equal(property["type"])
-		assert_bool(made.get(name) == usual.get(name)).append_failure_message(name).is_true()
-		checked += 1
-	assert_int(checked).is_greater(40)

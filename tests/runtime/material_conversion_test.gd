@@ -169,18 +169,6 @@ func test_orm() -> void:
 	assert_object(parts.ao_texture).is_same(source.orm_texture)
 
 
-func test_losses_are_named() -> void:
-	var source := StandardMaterial3D.new()
-	assert_array(LobeMaterial3D.get_losses_from(source)).is_empty()
-	source.rim_enabled = true
-	source.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
-	# Nobody sees it: refraction is off.
-	source.refraction_scale = 0.7
-	assert_array(LobeMaterial3D.get_losses_from(source)).contains_exactly_in_any_order(
-		["rim_enabled", "shading_mode"]
-	)
-
-
 func test_an_angle_becomes_a_flow_map() -> void:
 	var made := LobeMaterial3D.new()
 	made.anisotropy_enabled = true

@@ -23,12 +23,14 @@ KNOWS = {
     # Shows a light through a table. It preloads what its shader includes.
     "material": (
         *("table", "light", "shaders", "clear_coat", "diffuse", "occlusion"),
-        *("detail", "msdf", "parallax", "sheen", "triplanar", "vertices"),
+        *("detail", "fades", "lamps", "msdf", "parallax", "sheen", "triplanar", "vertices"),
     ),
     # Parts that exports may leave out. They know those whom they serve, and these load them on demand.
     "clear_coat": (),
     "detail": (),
     "diffuse": (),
+    "fades": (),
+    "lamps": (),
     "msdf": (),
     "parallax": (),
     "triplanar": (),

@@ -7,6 +7,7 @@ import mediump
 import numpy as np
 import probe_textures
 import projects
+import shader_fades
 import shader_frames
 import shader_light
 import shader_material
@@ -64,6 +65,7 @@ def make(quick, records):
     probes = [
         *shader_values.probes(quick),
         *shader_points.probes(quick),
+        *shader_fades.probes(),
         *shader_frames.probes(quick),
         *shader_widths.probes(quick),
         *shader_occlusion.probes(quick),

@@ -22,6 +22,8 @@ const TRIPLANAR := "triplanar mapping"
 const VERTICES := "billboards and moved vertices"
 const SHEEN := "sheen"
 const GLTF := "import of glTF files"
+const FADES := "fades and refraction"
+const LAMPS := "rims, back light and light below the surface"
 const WARNINGS := "warnings, which the editor shows"
 
 ## Folders of the run time that nothing but the feature needs. Each of them stays or goes whole.
@@ -31,10 +33,12 @@ const FOLDERS: Dictionary[String, String] = {
 	"conversion": OnDemand.CONVERSION,
 	"detail": DETAIL,
 	"diffuse": DIFFUSE,
+	"fades": FADES,
 	"filters": OnDemand.FILTERS,
 	"occlusion": OCCLUSION,
 	"msdf": MSDF,
 	"parallax": PARALLAX,
+	"lamps": LAMPS,
 	"probes": OnDemand.PLACES,
 	"sheen": SHEEN,
 	"gltf": GLTF,
@@ -61,6 +65,8 @@ const _WORDS: Dictionary[String, String] = {
 	DIFFUSE: "metallic|metallic_texture|orm_texture",
 	OCCLUSION: "ao_enabled|ao_texture|orm_texture|normal_enabled|normal_texture",
 	SHEEN: "sheen_\\w+",
+	FADES: "\\w+_fade_\\w+|refraction_\\w+",
+	LAMPS: "(rim|backlight|subsurf_scatter)_\\w+",
 	OnDemand.FILTERS: "filter",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
 	GLTF: "LobeGLTFExtension",
@@ -78,7 +84,7 @@ const _WORDS: Dictionary[String, String] = {
 }
 # What a material has that a script gives its properties.
 const _OF_MATERIALS: PackedStringArray = [
-	COAT, DETAIL, DIFFUSE, MSDF, OCCLUSION, PARALLAX, SHEEN, TRIPLANAR, VERTICES
+	COAT, DETAIL, DIFFUSE, FADES, LAMPS, MSDF, OCCLUSION, PARALLAX, SHEEN, TRIPLANAR, VERTICES
 ]
 const _METHOD := "rendering/renderer/rendering_method"
 const _FALLBACK := "rendering/rendering_device/fallback_to_opengl3"
@@ -149,6 +155,10 @@ func look_at_material(file: String, material: LobeMaterial3D) -> void:
 		add(VERTICES, file)
 	if material.has_sheen():
 		add(SHEEN, file)
+	if material.has_fades():
+		add(FADES, file)
+	if material.has_lamp_effects():
+		add(LAMPS, file)
 
 
 ## A line of a script, or the path of an animation's track.

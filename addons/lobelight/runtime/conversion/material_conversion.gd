@@ -3,12 +3,13 @@ extends "../material/conversion.gd"
 ## Between Godot's own materials and [LobeMaterial3D]; see [method LobeMaterial3D.from_standard] and
 ## [method LobeMaterial3D.to_standard].
 
+const StencilPass := preload("../material/stencil_pass.gd")
 const Widths := preload("../table/widths.gd")
 
 # Of Material: of the same meaning on both sides too.
 const _OF_ALL_MATERIALS: Array[StringName] = [&"render_priority", &"next_pass", &"resource_name"]
-# Said by other properties as well.
-const _DERIVED: Array[StringName] = [&"emission_intensity"]
+# Of no meaning, and refused by the engine, without physical light units.
+const _OF_PHYSICAL_UNITS := &"emission_intensity"
 # What turns a group of properties off, and what these begin with.
 const _SWITCHES: Dictionary[String, Array] = {
 	"backlight_enabled": ["backlight"],
@@ -70,7 +71,11 @@ func get_losses(source: BaseMaterial3D) -> PackedStringArray:
 	var usual := StandardMaterial3D.new()
 	for property: Dictionary in ClassDB.class_get_property_list(&"BaseMaterial3D", true):
 		var name: String = property["name"]
-		if property["usage"] & PROPERTY_USAGE_STORAGE == 0 or name in shared or name in _DERIVED:
+		if (
+			property["usage"] & PROPERTY_USAGE_STORAGE == 0
+			or name in shared
+			or name == _OF_PHYSICAL_UNITS
+		):
 			continue
 		if source.get(name) != usual.get(name) and not _is_off(source, name):
 			losses.append(name)
@@ -88,6 +93,11 @@ static func _is_off(source: BaseMaterial3D, name: String) -> bool:
 static func _copy(source: Material, made: Material) -> void:
 	for name in _find_shared():
 		made.set(name, source.get(name))
+	if LobeBaseMaterial3D.has_physical_units():
+		made.set(_OF_PHYSICAL_UNITS, source.get(_OF_PHYSICAL_UNITS))
+	if made.next_pass != null and made.next_pass.has_meta(StencilPass.OWNED):
+		# Either draws its own.
+		made.next_pass = made.next_pass.duplicate()
 
 
 static func _find_shared() -> Array[StringName]:
@@ -97,7 +107,7 @@ static func _find_shared() -> Array[StringName]:
 	var ours: Script = LobeBaseMaterial3D
 	for property: Dictionary in ours.get_script_property_list():
 		var name: StringName = property["name"]
-		if ClassDB.class_get_property_setter("BaseMaterial3D", name):
+		if name != _OF_PHYSICAL_UNITS and ClassDB.class_get_property_setter("BaseMaterial3D", name):
 			shared.append(name)
 	_shared = shared
 	return _shared

@@ -1,3 +1,5 @@
+# gdlint:disable=max-public-methods
+# gdlint:disable=max-file-lines
 @tool
 @abstract class_name LobeBaseMaterial3D
 extends ShaderMaterial
@@ -11,6 +13,12 @@ extends ShaderMaterial
 const _TRANSPARENCIES := "Disabled,Alpha,Alpha Scissor,Alpha Hash,Depth Pre-Pass"
 const _BLEND_MODES := "Mix,Add,Subtract,Multiply,Premultiplied Alpha"
 const _CULL_MODES := "Back,Front,Disabled"
+const _ALPHA_ANTIALIASINGS := "Disabled,Alpha Edge Blend,Alpha Edge Clip"
+const _DEPTH_DRAW_MODES := "Opaque Only,Always,Never"
+const _DEPTH_TESTS := "Default,Inverted"
+const _SHADING_MODES := "Unshaded,Per-Pixel,Per-Vertex"
+const _DIFFUSE_MODES := "Burley,Lambert,Lambert Wrap,Toon"
+const _SPECULAR_MODES := "SchlickGGX,Toon,Disabled"
 const _CHANNELS := "Red,Green,Blue,Alpha,Gray"
 const _OPERATORS := "Add,Multiply"
 const _FILTERS := (
@@ -20,24 +28,13 @@ const _FILTERS := (
 const _DETAIL_BLEND_MODES := "Mix,Add,Subtract,Multiply"
 const _UV_LAYERS := "UV1,UV2"
 const _BILLBOARD_MODES := "Disabled,Enabled,Y-Billboard,Particle Billboard"
+const _DISTANCE_FADES := "Disabled,PixelAlpha,PixelDither,ObjectDither"
+const _STENCIL_MODES := "Disabled,Outline,X-Ray,Custom"
+const _STENCIL_FLAGS := "Read,Write,Write Depth Fail"
+const _STENCIL_COMPARISONS := "Always,Less,Equal,Less Or Equal,Greater,Not Equal,Greater Or Equal"
+const _PHYSICAL_UNITS := "rendering/lights_and_shadows/use_physical_light_units"
 
-# What turns a property on.
-const _SWITCHES: Dictionary[String, StringName] = {
-	"billboard_keep_scale": &"billboard_mode",
-	"fov_override": &"use_fov_override",
-	"grow_amount": &"grow",
-	"heightmap_max_layers": &"heightmap_deep_parallax",
-	"heightmap_min_layers": &"heightmap_deep_parallax",
-	"msdf_outline_size": &"albedo_texture_msdf",
-	"msdf_pixel_range": &"albedo_texture_msdf",
-	"point_size": &"use_point_size",
-	"uv1_triplanar_sharpness": &"uv1_triplanar",
-	"uv1_world_triplanar": &"uv1_triplanar",
-	"uv2_triplanar_sharpness": &"uv2_triplanar",
-	"uv2_world_triplanar": &"uv2_triplanar",
-	"z_clip_scale": &"use_z_clip_scale",
-}
-
+const StencilPass := preload("stencil_pass.gd")
 const Widths := preload("../table/widths.gd")
 
 @export_group("BRDF")
@@ -77,6 +74,20 @@ var transparency: BaseMaterial3D.Transparency = BaseMaterial3D.TRANSPARENCY_DISA
 	set(value):
 		alpha_hash_scale = value
 		_queue_update()
+## Smooth edges for alpha scissor and alpha hash, where the viewport has MSAA.
+@export_custom(PROPERTY_HINT_ENUM, _ALPHA_ANTIALIASINGS)
+var alpha_antialiasing_mode: BaseMaterial3D.AlphaAntiAliasing = (
+	BaseMaterial3D.ALPHA_ANTIALIASING_OFF
+):
+	set(value):
+		alpha_antialiasing_mode = value
+		notify_property_list_changed()
+		_queue_update()
+## How far above the threshold the smooth edge reaches.
+@export_range(0.0, 1.0, 0.01) var alpha_antialiasing_edge := 0.3:
+	set(value):
+		alpha_antialiasing_edge = value
+		_queue_update()
 ## How the surface is blended with what is behind it.
 @export_custom(PROPERTY_HINT_ENUM, _BLEND_MODES)
 var blend_mode: BaseMaterial3D.BlendMode = BaseMaterial3D.BLEND_MODE_MIX:
@@ -90,8 +101,58 @@ var cull_mode: BaseMaterial3D.CullMode = BaseMaterial3D.CULL_BACK:
 	set(value):
 		cull_mode = value
 		_queue_update()
+## When the surface hides what is drawn later behind it.
+@export_custom(PROPERTY_HINT_ENUM, _DEPTH_DRAW_MODES)
+var depth_draw_mode: BaseMaterial3D.DepthDrawMode = BaseMaterial3D.DEPTH_DRAW_OPAQUE_ONLY:
+	set(value):
+		depth_draw_mode = value
+		_queue_update()
+## Whether the surface is drawn in front of everything that was drawn before.
+@export var no_depth_test := false:
+	set(value):
+		no_depth_test = value
+		notify_property_list_changed()
+		_queue_update()
+## Inverted, the surface is seen only where something is in front of it. Such a surface is
+## drawn with the transparent ones.
+@export_custom(PROPERTY_HINT_ENUM, _DEPTH_TESTS)
+var depth_test: BaseMaterial3D.DepthTest = BaseMaterial3D.DEPTH_TEST_DEFAULT:
+	set(value):
+		depth_test = value
+		_queue_update()
 
 @export_group("Shading")
+## Unshaded, the surface shows [member albedo_color] and knows of no light. Per vertex, the
+## engine's lamps are computed at the vertices; the surroundings stay per pixel.
+@export_custom(PROPERTY_HINT_ENUM, _SHADING_MODES)
+var shading_mode: BaseMaterial3D.ShadingMode = BaseMaterial3D.SHADING_MODE_PER_PIXEL:
+	set(value):
+		shading_mode = value
+		notify_property_list_changed()
+		_queue_update()
+## How the diffuse part shows the engine's lamps.
+@export_custom(PROPERTY_HINT_ENUM, _DIFFUSE_MODES)
+var diffuse_mode: BaseMaterial3D.DiffuseMode = BaseMaterial3D.DIFFUSE_BURLEY:
+	set(value):
+		diffuse_mode = value
+		_queue_update()
+## How the engine's lamps are reflected. The surroundings are reflected in any case.
+@export_custom(PROPERTY_HINT_ENUM, _SPECULAR_MODES)
+var specular_mode: BaseMaterial3D.SpecularMode = BaseMaterial3D.SPECULAR_SCHLICK_GGX:
+	set(value):
+		specular_mode = value
+		_queue_update()
+## Whether the light of the surroundings is left out: that of the environment and the probes as
+## well as the engine's ambient light. Lamps still shine.
+@export var disable_ambient_light := false:
+	set(value):
+		disable_ambient_light = value
+		_queue_update()
+## Whether fog leaves the surface as it is.
+@export var disable_fog := false:
+	set(value):
+		disable_fog = value
+		_queue_update()
 ## Whether reflections do without the occlusion that [member ao_texture], [member
 ## bent_normal_texture] and [member normal_texture] make. Each lobe is occluded by its own direction
 ## and width: what is near hides those more that point away from what is open, and the surface those
@@ -101,7 +162,7 @@ var cull_mode: BaseMaterial3D.CullMode = BaseMaterial3D.CULL_BACK:
 		disable_specular_occlusion = value
 		_queue_update()
 
-@export_group("Vertex Color", "vertex_color_")
+@export_group("Vertex Color", "vertex_color")
 ## Multiplies [member albedo_color] with the mesh's colours.
 @export var vertex_color_use_as_albedo := false:
 	set(value):
@@ -210,6 +271,12 @@ var roughness_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TE
 	set(value):
 		emission_energy_multiplier = value
 		_queue_update()
+## What [member emission] is in nits, with physical light units; [member
+## emission_energy_multiplier] is a factor of it. Without such units it does not count.
+@export_range(0.0, 100000.0, 0.01, "or_greater", "suffix:nt") var emission_intensity := 1000.0:
+	set(value):
+		emission_intensity = value
+		_queue_update()
 ## Whether [member emission_texture] is added to or multiplied with [member emission].
 @export_custom(PROPERTY_HINT_ENUM, _OPERATORS)
 var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION_OP_ADD:
@@ -255,6 +322,28 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 @export var bent_normal_texture: Texture2D:
 	set(value):
 		bent_normal_texture = value
+		_queue_update()
+
+@export_group("Rim", "rim_")
+## Whether lamps light the rim of the surface, as on velvet. The surroundings do not.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var rim_enabled := false:
+	set(value):
+		rim_enabled = value
+		_queue_update()
+## The strength of the rim.
+@export_range(0.0, 1.0, 0.01) var rim := 1.0:
+	set(value):
+		rim = value
+		_queue_update()
+## How far the rim goes from white to [member albedo_color].
+@export_range(0.0, 1.0, 0.01) var rim_tint := 0.5:
+	set(value):
+		rim_tint = value
+		_queue_update()
+## Factors of [member rim] in red and of [member rim_tint] in green.
+@export var rim_texture: Texture2D:
+	set(value):
+		rim_texture = value
 		_queue_update()
 
 @export_group("Clearcoat", "clearcoat_")
@@ -415,6 +504,98 @@ var ao_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_C
 		heightmap_flip_texture = value
 		_queue_update()
 
+@export_group("Subsurf Scatter", "subsurf_scatter_")
+## Whether light spreads below the surface, in Forward+ only. It spreads all that the surface
+## shows but the reflections of lamps.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var subsurf_scatter_enabled := false:
+	set(value):
+		subsurf_scatter_enabled = value
+		_queue_update()
+## The strength of the spread.
+@export_range(0.0, 1.0, 0.01) var subsurf_scatter_strength := 0.0:
+	set(value):
+		subsurf_scatter_strength = value
+		_queue_update()
+## Whether it spreads as in skin.
+@export var subsurf_scatter_skin_mode := false:
+	set(value):
+		subsurf_scatter_skin_mode = value
+		notify_property_list_changed()
+		_queue_update()
+## A factor of [member subsurf_scatter_strength], in red.
+@export var subsurf_scatter_texture: Texture2D:
+	set(value):
+		subsurf_scatter_texture = value
+		_queue_update()
+
+@export_subgroup("Transmittance", "subsurf_scatter_transmittance_")
+## Whether lamps shine through thin parts, with [member subsurf_scatter_enabled].
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var subsurf_scatter_transmittance_enabled := false:
+	set(value):
+		subsurf_scatter_transmittance_enabled = value
+		_queue_update()
+## The colour of what shines through.
+@export var subsurf_scatter_transmittance_color := Color.WHITE:
+	set(value):
+		subsurf_scatter_transmittance_color = value
+		_queue_update()
+## A factor of [member subsurf_scatter_transmittance_color].
+@export var subsurf_scatter_transmittance_texture: Texture2D:
+	set(value):
+		subsurf_scatter_transmittance_texture = value
+		_queue_update()
+## The depth to which lamps shine through.
+@export_range(0.001, 8.0, 0.001, "or_greater") var subsurf_scatter_transmittance_depth := 0.1:
+	set(value):
+		subsurf_scatter_transmittance_depth = value
+		_queue_update()
+## Makes what shines through brighter.
+@export_range(0.0, 1.0, 0.01) var subsurf_scatter_transmittance_boost := 0.0:
+	set(value):
+		subsurf_scatter_transmittance_boost = value
+		_queue_update()
+
+@export_group("Back Lighting", "backlight_")
+## Whether lamps behind the surface shine through it, as through a leaf.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var backlight_enabled := false:
+	set(value):
+		backlight_enabled = value
+		_queue_update()
+## The colour of what shines through.
+@export_color_no_alpha var backlight := Color.BLACK:
+	set(value):
+		backlight = value
+		_queue_update()
+## Added to [member backlight].
+@export var backlight_texture: Texture2D:
+	set(value):
+		backlight_texture = value
+		_queue_update()
+
+@export_group("Refraction", "refraction_")
+## Whether what is behind the surface is seen through it, bent, and blurred by [member roughness].
+## The alpha of [member albedo_color] says how much of it.
+@export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var refraction_enabled := false:
+	set(value):
+		refraction_enabled = value
+		_queue_update()
+## How much is bent.
+@export_range(-1.0, 1.0, 0.01) var refraction_scale := 0.05:
+	set(value):
+		refraction_scale = value
+		_queue_update()
+## A factor of [member refraction_scale].
+@export var refraction_texture: Texture2D:
+	set(value):
+		refraction_texture = value
+		_queue_update()
+## The channel of [member refraction_texture].
+@export_custom(PROPERTY_HINT_ENUM, _CHANNELS)
+var refraction_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_CHANNEL_RED:
+	set(value):
+		refraction_texture_channel = value
+		_queue_update()
+
 @export_group("Detail", "detail_")
 ## Whether the detail textures lie over the others.
 @export_custom(PROPERTY_HINT_GROUP_ENABLE, "") var detail_enabled := false:
@@ -523,6 +704,19 @@ var texture_filter := BaseMaterial3D.TEXTURE_FILTER_LINEAR_WITH_MIPMAPS:
 		texture_repeat = value
 		_queue_update()
 
+@export_group("Shadows")
+## Whether shadows leave the surface as it is.
+@export var disable_receive_shadows := false:
+	set(value):
+		disable_receive_shadows = value
+		_queue_update()
+## Whether the surface is opaque where shadows fall, and transparent elsewhere. As its opacity comes
+## from it, the engine's ambient light is then the light of the surroundings.
+@export var shadow_to_opacity := false:
+	set(value):
+		shadow_to_opacity = value
+		_queue_update()
+
 @export_group("Billboard", "billboard_")
 ## How the object turns to the camera.
 @export_custom(PROPERTY_HINT_ENUM, _BILLBOARD_MODES)
@@ -613,6 +807,19 @@ var billboard_mode: BaseMaterial3D.BillboardMode = BaseMaterial3D.BILLBOARD_DISA
 		fov_override = value
 		_queue_update()
 
+@export_group("Proximity Fade", "proximity_fade_")
+## Whether the surface fades out where it comes close to what is behind it.
+@export var proximity_fade_enabled := false:
+	set(value):
+		proximity_fade_enabled = value
+		notify_property_list_changed()
+		_queue_update()
+## The distance over which it fades.
+@export_range(0.01, 4096.0, 0.01, "suffix:m") var proximity_fade_distance := 1.0:
+	set(value):
+		proximity_fade_distance = value
+		_queue_update()
+
 @export_group("MSDF", "msdf_")
 ## The breadth of the field around outlines, in texels.
 @export_range(1.0, 100.0, 1.0) var msdf_pixel_range := 4.0:
@@ -623,6 +830,72 @@ var billboard_mode: BaseMaterial3D.BillboardMode = BaseMaterial3D.BILLBOARD_DISA
 @export_range(0.0, 250.0, 1.0) var msdf_outline_size := 0.0:
 	set(value):
 		msdf_outline_size = value
+		_queue_update()
+
+@export_group("Distance Fade", "distance_fade_")
+## Whether and how the surface fades with its distance from the camera.
+@export_custom(PROPERTY_HINT_ENUM, _DISTANCE_FADES)
+var distance_fade_mode: BaseMaterial3D.DistanceFadeMode = BaseMaterial3D.DISTANCE_FADE_DISABLED:
+	set(value):
+		distance_fade_mode = value
+		notify_property_list_changed()
+		_queue_update()
+## The distance at which nothing is seen of the surface.
+@export_range(0.0, 4096.0, 0.01, "suffix:m") var distance_fade_min_distance := 0.0:
+	set(value):
+		distance_fade_min_distance = value
+		_queue_update()
+## The distance at which all is seen of the surface. Where it is the smaller one, the surface fades
+## as it goes away.
+@export_range(0.0, 4096.0, 0.01, "suffix:m") var distance_fade_max_distance := 10.0:
+	set(value):
+		distance_fade_max_distance = value
+		_queue_update()
+
+@export_group("Stencil", "stencil_")
+## An effect with the stencil buffer. Outline and X-Ray put a material of their own before [member
+## Material.next_pass], as in [BaseMaterial3D].
+@export_custom(PROPERTY_HINT_ENUM, _STENCIL_MODES)
+var stencil_mode: BaseMaterial3D.StencilMode = BaseMaterial3D.STENCIL_MODE_DISABLED:
+	set(value):
+		if value == stencil_mode or not StencilPass.is_possible(self, value):
+			return
+		stencil_mode = value
+		StencilPass.choose(self, value)
+		if has_stencil_pass():
+			stencil_flags = BaseMaterial3D.STENCIL_FLAG_WRITE
+			stencil_compare = BaseMaterial3D.STENCIL_COMPARE_ALWAYS
+		_hand_on_stencil()
+		notify_property_list_changed()
+		_queue_update()
+## What is done with the stencil buffer.
+@export_custom(PROPERTY_HINT_FLAGS, _STENCIL_FLAGS) var stencil_flags := 0:
+	set(value):
+		stencil_flags = StencilPass.without_conflict(value, stencil_flags)
+		_queue_update()
+## How [member stencil_reference] has to compare with the stencil buffer where the surface is drawn.
+@export_custom(PROPERTY_HINT_ENUM, _STENCIL_COMPARISONS)
+var stencil_compare: BaseMaterial3D.StencilCompare = BaseMaterial3D.STENCIL_COMPARE_ALWAYS:
+	set(value):
+		stencil_compare = value
+		_queue_update()
+## What is written into the stencil buffer, or compared with it.
+@export_range(0, 255, 1) var stencil_reference := 1:
+	set(value):
+		stencil_reference = value
+		_hand_on_stencil()
+		_queue_update()
+## The colour of Outline and X-Ray.
+@export var stencil_color := Color.BLACK:
+	set(value):
+		stencil_color = value
+		_hand_on_stencil()
+		_queue_update()
+## How far the outline reaches.
+@export_range(0.0, 1.0, 0.001, "or_greater", "suffix:m") var stencil_outline_thickness := 0.01:
+	set(value):
+		stencil_outline_thickness = value
+		_hand_on_stencil()
 		_queue_update()
 
 
@@ -644,6 +917,38 @@ func emits() -> bool:
 	if emission_texture == null:
 		return not is_dark
 	return not is_dark or emission_operator == BaseMaterial3D.EMISSION_OP_ADD
+
+
+## Whether the light of the surroundings comes from the environment and the probes.
+func is_lit_by_surroundings() -> bool:
+	return not (disable_ambient_light or shadow_to_opacity or is_unshaded())
+
+
+## Whether no light matters.
+func is_unshaded() -> bool:
+	return shading_mode == BaseMaterial3D.SHADING_MODE_UNSHADED
+
+
+## Whether the surface needs an opacity.
+func has_alpha() -> bool:
+	if transparency != BaseMaterial3D.TRANSPARENCY_DISABLED or shadow_to_opacity:
+		return true
+	if proximity_fade_enabled or refraction_enabled:
+		return true
+	return distance_fade_mode == BaseMaterial3D.DISTANCE_FADE_PIXEL_ALPHA
+
+
+## Whether alpha's edges are smooth.
+func has_smooth_alpha() -> bool:
+	return can_smooth_alpha() and alpha_antialiasing_mode != BaseMaterial3D.ALPHA_ANTIALIASING_OFF
+
+
+## Whether alpha has edges.
+func can_smooth_alpha() -> bool:
+	return (
+		transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR
+		or transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_HASH
+	)
 
 
 ## Whether normals are bent by a map.
@@ -709,30 +1014,37 @@ func varies() -> bool:
 	return anisotropy_flowmap != null and anisotropy_flowmap.has_alpha()
 
 
-func _validate_property(property: Dictionary) -> void:
-	if not _is_of_use(property["name"]):
-		property["usage"] = PROPERTY_USAGE_NO_EDITOR
-
-
-# Whether a property has an effect as the others are; the inspector hides those that have none.
-func _is_of_use(property: String) -> bool:
-	if _SWITCHES.has(property):
-		return bool(get(_SWITCHES[property]))
-	if property.begins_with("particles_anim_"):
-		return billboard_mode == BaseMaterial3D.BILLBOARD_PARTICLES
-	match property:
-		"alpha_scissor_threshold":
-			return transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR
-		"alpha_hash_scale":
-			return transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_HASH
-	return true
-
-
 func _follow(before: Resource, after: Resource) -> void:
 	if before != null:
 		before.changed.disconnect(_queue_update)
 	if after != null:
 		after.changed.connect(_queue_update)
+
+
+## Whether opacity depends on where the surface is, or something is seen through it.
+func has_fades() -> bool:
+	var fades := distance_fade_mode != BaseMaterial3D.DISTANCE_FADE_DISABLED
+	return fades or proximity_fade_enabled or refraction_enabled
+
+
+## Whether lamps show more of it than the surroundings.
+func has_lamp_effects() -> bool:
+	var is_lit_below := subsurf_scatter_enabled or subsurf_scatter_transmittance_enabled
+	return not is_unshaded() and (rim_enabled or backlight_enabled or is_lit_below)
+
+
+## Whether something draws Outline or X-Ray.
+func has_stencil_pass() -> bool:
+	return StencilPass.has_pass(stencil_mode)
+
+
+## Whether light is measured in physical units.
+static func has_physical_units() -> bool:
+	return ProjectSettings.get_setting(_PHYSICAL_UNITS)
+
+
+func _hand_on_stencil() -> void:
+	StencilPass.hand_on(self, stencil_reference, stencil_color, stencil_outline_thickness)
 
 
 # Something that the shader or its parameters depend on has changed.

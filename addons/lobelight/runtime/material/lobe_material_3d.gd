@@ -34,6 +34,7 @@ const Conversion := preload("conversion.gd")
 const LightRegistry := preload("../light/light_registry.gd")
 const MaterialParameters := preload("material_parameters.gd")
 const MaterialShader := preload("material_shader.gd")
+const ShownProperties := preload("shown_properties.gd")
 const TableChoice := preload("table_choice.gd")
 
 # Loaded here so that exported projects contain them.
@@ -44,7 +45,9 @@ const _INCLUDES: Array[ShaderInclude] = [
 	preload("../detail/detail.gdshaderinc"),
 	preload("../diffuse/diffuse.gdshaderinc"),
 	preload("../shaders/environment.gdshaderinc"),
+	preload("../fades/fades.gdshaderinc"),
 	preload("../shaders/frame.gdshaderinc"),
+	preload("../lamps/lamps.gdshaderinc"),
 	preload("../shaders/lobe_table.gdshaderinc"),
 	preload("../shaders/material.gdshaderinc"),
 	preload("../shaders/material_inputs.gdshaderinc"),
@@ -131,7 +134,9 @@ func _validate_property(property: Dictionary) -> void:
 		"render_priority", "next_pass":
 			property.usage = PROPERTY_USAGE_DEFAULT
 		_:
-			super(property)
+			if ShownProperties.hides(self, property.name):
+				# It is stored all the same.
+				property.usage &= ~PROPERTY_USAGE_EDITOR
 
 
 ## The generated shader's code: [code]#define[/code]s that choose the variant, and an

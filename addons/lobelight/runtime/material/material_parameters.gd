@@ -39,10 +39,12 @@ static func apply(surface: LobeBaseMaterial3D, choice: TableChoice) -> void:
 		_give(material, &"lobelight_dielectric", Vector2(f0, minf(50.0 * f0, 1.0)))
 	if surface.emits():
 		_apply_emission(surface)
-	if surface.transparency != BaseMaterial3D.TRANSPARENCY_DISABLED:
+	if surface.has_alpha():
 		_give(material, &"lobelight_alpha_scissor_threshold", surface.alpha_scissor_threshold)
 		_give(material, &"lobelight_alpha_hash_scale", surface.alpha_hash_scale)
 	CoordinateParameters.apply(surface)
+	_apply_fades(surface)
+	_apply_lamps(surface)
 
 
 static func _apply_table(material: RID, choice: TableChoice) -> void:
@@ -121,9 +123,60 @@ static func _apply_textures(surface: LobeBaseMaterial3D) -> void:
 		_give(material, &"lobelight_msdf_outline", surface.msdf_outline_size)
 
 
+static func _apply_fades(surface: LobeBaseMaterial3D) -> void:
+	var material := surface.get_rid()
+	if surface.has_smooth_alpha():
+		_give(material, &"lobelight_alpha_edge", surface.alpha_antialiasing_edge)
+		if surface.albedo_texture != null:
+			_give(material, &"lobelight_albedo_size", surface.albedo_texture.get_size())
+	if surface.proximity_fade_enabled:
+		_give(material, &"lobelight_proximity", surface.proximity_fade_distance)
+	if surface.distance_fade_mode != BaseMaterial3D.DISTANCE_FADE_DISABLED:
+		var limits := Vector2(
+			surface.distance_fade_min_distance, surface.distance_fade_max_distance
+		)
+		_give(material, &"lobelight_fade_limits", limits)
+	if surface.refraction_enabled:
+		_give(material, &"lobelight_refraction", surface.refraction_scale)
+		if _give_texture(material, &"lobelight_refraction_texture", surface.refraction_texture):
+			var channel := _CHANNELS[surface.refraction_texture_channel]
+			_give(material, &"lobelight_refraction_channel", channel)
+
+
+static func _apply_lamps(surface: LobeBaseMaterial3D) -> void:
+	var material := surface.get_rid()
+	if surface.rim_enabled:
+		_give(material, &"lobelight_rim_amount", Vector2(surface.rim, surface.rim_tint))
+		_give_texture(material, &"lobelight_rim_texture", surface.rim_texture)
+	if surface.backlight_enabled:
+		_give(material, &"lobelight_backlight", surface.backlight)
+		_give_texture(material, &"lobelight_backlight_texture", surface.backlight_texture)
+	if surface.subsurf_scatter_enabled:
+		_give(material, &"lobelight_scattering", surface.subsurf_scatter_strength)
+		_give_texture(material, &"lobelight_scattering_texture", surface.subsurf_scatter_texture)
+	if surface.subsurf_scatter_transmittance_enabled:
+		_give(material, &"lobelight_transmitted", surface.subsurf_scatter_transmittance_color)
+		_give(
+			material,
+			&"lobelight_transmittance",
+			Vector2(
+				surface.subsurf_scatter_transmittance_depth,
+				surface.subsurf_scatter_transmittance_boost
+			)
+		)
+		_give_texture(
+			material,
+			&"lobelight_transmittance_texture",
+			surface.subsurf_scatter_transmittance_texture
+		)
+
+
 static func _apply_emission(surface: LobeBaseMaterial3D) -> void:
-	var colour := _linear(surface.emission) * surface.emission_energy_multiplier
-	var factor := surface.emission_energy_multiplier * Vector3.ONE
+	var energy := surface.emission_energy_multiplier
+	if surface.has_physical_units():
+		energy *= surface.emission_intensity
+	var colour := _linear(surface.emission) * energy
+	var factor := energy * Vector3.ONE
 	if (
 		surface.emission_texture != null
 		and surface.emission_operator == BaseMaterial3D.EMISSION_OP_MULTIPLY

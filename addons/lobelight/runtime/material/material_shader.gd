@@ -9,7 +9,31 @@ const TableChoice := preload("table_choice.gd")
 const _BLEND_MODES: PackedStringArray = [
 	"blend_mix", "blend_add", "blend_sub", "blend_mul", "blend_premul_alpha"
 ]
+const _DEPTH_DRAW_MODES: PackedStringArray = [
+	"depth_draw_opaque", "depth_draw_always", "depth_draw_never"
+]
+const _DIFFUSE_MODES: PackedStringArray = [
+	"diffuse_burley", "diffuse_lambert", "diffuse_lambert_wrap", "diffuse_toon"
+]
+const _SPECULAR_MODES: PackedStringArray = [
+	"specular_schlick_ggx", "specular_toon", "specular_disabled"
+]
+const _ALPHA_ANTIALIASINGS: PackedStringArray = [
+	"", "alpha_to_coverage", "alpha_to_coverage_and_one"
+]
+const _FADES: PackedStringArray = ["", "PIXEL_ALPHA", "PIXEL_DITHER", "OBJECT_DITHER"]
+const _STENCIL_COMPARISONS: PackedStringArray = [
+	"always", "less", "equal", "less_or_equal", "greater", "not_equal", "greater_or_equal"
+]
 const _CULL_MODES: PackedStringArray = ["cull_back", "cull_front", "cull_disabled"]
+# By what they are for.
+const _LAMP_TEXTURES: Dictionary[String, StringName] = {
+	"RIM": &"rim_texture",
+	"BACKLIGHT": &"backlight_texture",
+	"SCATTERING": &"subsurf_scatter_texture",
+	"TRANSMITTANCE": &"subsurf_scatter_transmittance_texture",
+	"REFRACTION": &"refraction_texture",
+}
 ## Lookups of the diffuse light, see diffuse/diffuse.gdshaderinc.
 const DIFFUSE_FETCHES := 6
 
@@ -17,6 +41,7 @@ const DIFFUSE_FETCHES := 6
 ## Everything before the include of the fragment function.
 static func get_code(surface: LobeBaseMaterial3D, choice: TableChoice) -> String:
 	var code := "shader_type spatial;\nrender_mode %s;\n" % ", ".join(_render_modes(surface))
+	code += _get_stencil(surface)
 	for name in _defines(surface, choice):
 		code += "#define LOBELIGHT_%s\n" % name
 	return code
@@ -30,6 +55,8 @@ static func count_fetches(
 	var environment := choice.lobe_count
 	var table := choice.lobe_count
 	var samplers := 2
+	if "LAMPS_ONLY" in defines:
+		return {"environment": 0, "table": 0, "samplers": 0}
 	if "SECOND_TEXELS" in defines or ("WIDTHS_PER_PIXEL" in defines and not choice.is_isotropic):
 		table *= 2
 	if "DIELECTRIC" in defines:
@@ -59,20 +86,67 @@ static func _count_placed_samplers(defines: PackedStringArray) -> int:
 
 
 static func _render_modes(surface: LobeBaseMaterial3D) -> PackedStringArray:
-	var modes: PackedStringArray = ["ambient_light_disabled"]
+	var modes: PackedStringArray = []
+	if surface.disable_ambient_light or not surface.shadow_to_opacity:
+		modes.append("ambient_light_disabled")
 	# What is the engine's default is left out.
 	if surface.is_dielectric():
 		# As Godot's own materials are lit by its lights.
-		modes.append("diffuse_burley")
+		modes.append(_DIFFUSE_MODES[surface.diffuse_mode])
+	if surface.specular_mode != BaseMaterial3D.SPECULAR_SCHLICK_GGX:
+		modes.append(_SPECULAR_MODES[surface.specular_mode])
 	if surface.blend_mode != BaseMaterial3D.BLEND_MODE_MIX:
 		modes.append(_BLEND_MODES[surface.blend_mode])
 	if surface.cull_mode != BaseMaterial3D.CULL_BACK:
 		modes.append(_CULL_MODES[surface.cull_mode])
+	_add_depth_modes(surface, modes)
+	if surface.has_smooth_alpha():
+		modes.append(_ALPHA_ANTIALIASINGS[surface.alpha_antialiasing_mode])
+	var switches: Dictionary[String, bool] = {
+		"unshaded": surface.is_unshaded(),
+		"vertex_lighting": surface.shading_mode == BaseMaterial3D.SHADING_MODE_PER_VERTEX,
+		"shadows_disabled": surface.disable_receive_shadows,
+		"shadow_to_opacity": surface.shadow_to_opacity,
+		"fog_disabled": surface.disable_fog,
+		"particle_trails": surface.use_particle_trails,
+		"sss_mode_skin": surface.subsurf_scatter_enabled and surface.subsurf_scatter_skin_mode,
+	}
+	for mode in switches:
+		if switches[mode]:
+			modes.append(mode)
+	if modes.is_empty():
+		modes.append("blend_mix")
+	return modes
+
+
+static func _add_depth_modes(surface: LobeBaseMaterial3D, modes: PackedStringArray) -> void:
+	var draw := surface.depth_draw_mode
+	if surface.refraction_enabled:
+		draw = BaseMaterial3D.DEPTH_DRAW_ALWAYS
+	if draw != BaseMaterial3D.DEPTH_DRAW_OPAQUE_ONLY:
+		modes.append(_DEPTH_DRAW_MODES[draw])
+	if surface.no_depth_test:
+		modes.append("depth_test_disabled")
+	elif surface.depth_test == BaseMaterial3D.DEPTH_TEST_INVERTED:
+		modes.append("depth_test_inverted")
 	if surface.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_DEPTH_PRE_PASS:
 		modes.append("depth_prepass_alpha")
-	if surface.use_particle_trails:
-		modes.append("particle_trails")
-	return modes
+
+
+static func _get_stencil(surface: LobeBaseMaterial3D) -> String:
+	var flags := surface.stencil_flags
+	if surface.stencil_mode == BaseMaterial3D.STENCIL_MODE_DISABLED or flags == 0:
+		return ""
+	var modes: PackedStringArray = []
+	if flags & BaseMaterial3D.STENCIL_FLAG_READ:
+		modes.append("read")
+	if flags & BaseMaterial3D.STENCIL_FLAG_WRITE:
+		modes.append("write")
+	if flags & BaseMaterial3D.STENCIL_FLAG_WRITE_DEPTH_FAIL:
+		modes.append("write_depth_fail")
+	modes.append("compare_" + _STENCIL_COMPARISONS[surface.stencil_compare])
+	modes.append(str(surface.stencil_reference))
+	return "stencil_mode %s;\n" % ", ".join(modes)
 
 
 static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> PackedStringArray:
@@ -93,7 +167,10 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		defines.append("DIELECTRIC")
 		if surface.metallic > 0.0:
 			defines.append("METALLIC")
-	defines.append_array(LightRegistry.get_defines(surface.get_rid()))
+	if surface.is_lit_by_surroundings():
+		defines.append_array(LightRegistry.get_defines(surface.get_rid()))
+	else:
+		defines.append("LAMPS_ONLY")
 	if choice.coat != null:
 		defines.append("COAT_LOBES %d" % choice.coat.lobe_count)
 	if choice.sheen != null:
@@ -101,6 +178,8 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 	if surface.emits():
 		defines.append("EMISSION")
 	_add_alpha(surface, defines)
+	_add_fades(surface, defines)
+	_add_lamps(surface, defines)
 	_add_textures(surface, choice, defines)
 	CoordinateDefines.add_vertices(surface, defines)
 	if surface.vertex_color_use_as_albedo:
@@ -111,13 +190,43 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 
 
 static func _add_alpha(surface: LobeBaseMaterial3D, defines: PackedStringArray) -> void:
-	if surface.transparency == BaseMaterial3D.TRANSPARENCY_DISABLED:
-		return
-	defines.append("ALPHA")
+	if surface.has_alpha():
+		defines.append("ALPHA")
 	if surface.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR:
 		defines.append("ALPHA_SCISSOR")
 	elif surface.transparency == BaseMaterial3D.TRANSPARENCY_ALPHA_HASH:
 		defines.append("ALPHA_HASH")
+	if surface.has_smooth_alpha():
+		defines.append("SMOOTH_ALPHA")
+
+
+static func _add_fades(surface: LobeBaseMaterial3D, defines: PackedStringArray) -> void:
+	if surface.has_fades():
+		defines.append("FADES")
+	if surface.proximity_fade_enabled:
+		defines.append("PROXIMITY_FADE")
+	if surface.distance_fade_mode != BaseMaterial3D.DISTANCE_FADE_DISABLED:
+		defines.append("DISTANCE_FADE")
+		defines.append(_FADES[surface.distance_fade_mode])
+	if surface.refraction_enabled:
+		defines.append("REFRACTION")
+
+
+# What the engine's lamps alone show.
+static func _add_lamps(surface: LobeBaseMaterial3D, defines: PackedStringArray) -> void:
+	if surface.shading_mode == BaseMaterial3D.SHADING_MODE_PER_VERTEX:
+		defines.append("PER_VERTEX")
+	if not surface.has_lamp_effects():
+		return
+	defines.append("LAMPS")
+	if surface.rim_enabled:
+		defines.append("RIM")
+	if surface.backlight_enabled:
+		defines.append("BACKLIGHT")
+	if surface.subsurf_scatter_enabled:
+		defines.append("SCATTERING")
+	if surface.subsurf_scatter_transmittance_enabled:
+		defines.append("TRANSMITTANCE")
 
 
 static func _add_textures(
@@ -160,6 +269,9 @@ static func _add_textures(
 			defines.append("EMISSION_ON_UV2")
 	if surface.detail_enabled:
 		_add_details(surface, defines)
+	for name in _LAMP_TEXTURES:
+		if name in defines and surface.get(_LAMP_TEXTURES[name]) != null:
+			defines.append(name + "_TEXTURE")
 	if defines.size() == first:
 		return
 	defines.append("TEXTURED")
