@@ -14,6 +14,7 @@ import shader_material
 import shader_occlusion
 import shader_passes
 import shader_placed
+import shader_planes
 import shader_points
 import shader_pyramid
 import shader_tables
@@ -68,6 +69,7 @@ def make(quick, records):
         *shader_fades.probes(),
         *shader_frames.probes(quick),
         *shader_widths.probes(quick),
+        *shader_planes.probes(quick),
         *shader_occlusion.probes(quick),
         *shader_tables.probes(quick, tables),
         *(shader_tables.lobe_probe(table, title, quick, few=True) for table, title in fitted),
