@@ -7,6 +7,8 @@ extends GdUnitTestSuite
 
 const Kit := preload("support/render_kit.gd")
 const SIDE := 64
+# Frames until all pipelines have been compiled.
+const SETTLED := 20
 
 ## What a row is drawn on.
 const SOLIDS := "a sphere and a box"
@@ -185,6 +187,8 @@ var _view: LinearViewport
 var _stages: Dictionary[String, Node3D] = {}
 var _textures: Dictionary[String, Texture2D] = {}
 var _table := LobeTable.make_single_lobe(1.0)
+# The engine may stand still where a shader goes while its pipelines are being compiled on threads.
+var _kept: Array[Material] = []
 
 
 func before() -> void:
@@ -252,6 +256,9 @@ func before_test() -> void:
 
 func after_test() -> void:
 	_stages.clear()
+	for frame in SETTLED:
+		await get_tree().process_frame
+	_kept.clear()
 	_view.free()
 
 
@@ -294,6 +301,7 @@ func _make(settings: Dictionary) -> StandardMaterial3D:
 
 func _draw(stage: String, material: Material) -> Image:
 	var shown := _stages[stage]
+	_kept.append(material)
 	for node: Node in shown.get_children():
 		if node is GeometryInstance3D and not node.has_meta("fixed"):
 			(node as GeometryInstance3D).material_override = material
