@@ -10,6 +10,7 @@ const TableChoice := preload("res://addons/lobelight/runtime/material/table_choi
 const Widths := preload("res://addons/lobelight/runtime/table/widths.gd")
 const SCENES := "res://tests/diet/scenes/"
 const GGX := "res://addons/lobelight/tables/ggx_8.res"
+const CHARLIE := "res://addons/lobelight/tables/charlie_4.res"
 const WARD := "res://addons/lobelight/tables/ward_8.res"
 
 ## A scene, what is left of the sets of GGX and of Ward at most, as shares.
@@ -70,6 +71,37 @@ func test_left_of_the_sets(
 		assert_int(share.before).is_greater(1000000)
 		assert_float(float(share.after) / share.before).is_less_equal(wanted[1])
 		assert_bool(share.is_left_out()).is_equal(wanted[1] == 0.0)
+
+
+func test_the_set_of_sheens_goes_along_where_one_is_drawn() -> void:
+	assert_bool((_diet("everything").shares[CHARLIE] as Diet.Share).is_left_out()).is_true()
+	var files: PackedStringArray = []
+	for roughness: float in [0.5, 0.9]:
+		var material := LobeMaterial3D.new()
+		material.sheen_enabled = true
+		material.sheen_roughness = roughness
+		files.append("user://diet_sheen_%d.tres" % files.size())
+		ResourceSaver.save(material, files[-1])
+	var share: Diet.Share = Diet.of_files(files.slice(0, 1)).shares[CHARLIE]
+	assert_bool(share.is_left_out()).is_false()
+	assert_int(share.after).is_less(share.before)
+	files.append("user://diet_sheen.res")
+	var cut := FileAccess.open(files[-1], FileAccess.WRITE)
+	cut.store_buffer(share.bytes)
+	cut.close()
+	var left: LobeTableSet = load(files[-1])
+	var whole: LobeTableSet = load(CHARLIE)
+	var width := Vector2(0.25, 0.25)
+	var is_same := left.table_at(width).image.get_data() == whole.table_at(width).image.get_data()
+	assert_bool(is_same).is_true()
+	files.append("user://diet_sheen.gd")
+	var file := FileAccess.open(files[-1], FileAccess.WRITE)
+	file.store_string("extends Node\n\n\nfunc f(m):\n\tm.sheen_roughness = 0.2\n")
+	file.close()
+	share = Diet.of_files(files).shares[CHARLIE]
+	assert_int(share.after).is_equal(share.before)
+	for path in files:
+		DirAccess.remove_absolute(path)
 
 
 # Widths per pixel of a material without anisotropy come from the isotropic tables.

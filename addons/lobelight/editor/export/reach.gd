@@ -37,6 +37,8 @@ var _unknown: PackedStringArray = []
 var _declared := false
 # Files that may make materials; those have what a new one has, and what scripts assign.
 var _made_by_script: Dictionary[String, bool] = {}
+# A script that names what sheens have.
+var _sheen_script := ""
 var _named_sets: Dictionary[String, String] = {}
 var _seen: Dictionary[int, bool] = {}
 var _assignment := RegEx.create_from_string(
@@ -160,6 +162,8 @@ func _read_script(file: String, text: String) -> void:
 		if _dynamic.search(code) != null or _other_widths.search(code) != null:
 			features.add_all(file)
 		var assigned := _assignment.search(code)
+		if "sheen_" in code:
+			_sheen_script = file
 		if "clearcoat_enabled" in code:
 			_add_number("clearcoat", 1.0)
 		if assigned != null:
@@ -200,10 +204,7 @@ func _conclude() -> void:
 		own_tables.append([table.users[0], table.table])
 	for file in _made_by_script:
 		_include(file, LobeMaterial3D.new())
-	if features.reached.has(Features.SHEEN):
-		var sheen := _get_set(TableChoice.SHEEN_SET)
-		sheen.whole_because = "it is small"
-		sheen.add_user(features.reached[Features.SHEEN])
+	_include_sheens()
 	for path in _named_sets:
 		var named := _get_set(path)
 		# The script may ask it for any table.
@@ -213,6 +214,20 @@ func _conclude() -> void:
 		reach.is_filled = _declared
 		if not _declared and not _unknown.is_empty() and reach.whole_because.is_empty():
 			reach.whole_because = _unknown[0]
+
+
+func _include_sheens() -> void:
+	if not features.reached.has(Features.SHEEN):
+		return
+	var sheens := _get_set(TableChoice.SHEEN_SET)
+	for entry in _materials:
+		var material: LobeMaterial3D = entry[1]
+		if material.has_sheen():
+			sheens.add_user(entry[0])
+			sheens.add_surface(Vector2.ONE * material.sheen_roughness * material.sheen_roughness)
+	if sheens.surfaces.is_empty() or not _sheen_script.is_empty():
+		sheens.whole_because = "a script may ask for any"
+		sheens.add_user(features.reached[Features.SHEEN])
 
 
 func _get_set(path: String) -> SetReach:
