@@ -128,7 +128,7 @@ func test_a_large_scene_is_converted_saved_undone_and_converted_back() -> void:
 	var report := _menu.convert_nodes([root])
 	assert_int(_count_saved(root)).is_greater(saved + 100)
 	_assert_drawn(root, before, "LobeMaterial3D", "converted")
-	assert_str(report).contains("Sprite: Sprite3Ds are drawn")
+	assert_str(report).contains(" and 2 nodes more: Sprite3Ds are drawn")
 	assert_str(report).contains("whose shader is its own")
 	_undo(root)
 	_assert_drawn(root, before, "StandardMaterial3D", "undone")

@@ -24,11 +24,13 @@ var changes: Array[Slot] = []
 var instances: Array[Node] = []
 ## The files of scenes in which the rest is to be converted.
 var files: PackedStringArray = []
-## What stays as it is, each as [code]path of the node: reason[/code].
-var left: PackedStringArray = []
+## What stays as it is or is to be looked at: paths of the nodes by the reason.
+var left: Dictionary[String, Array] = {}
 ## How many nodes have changes in files of their own.
 var nodes_in_files := 0
 
+# The same as instances, to be looked up.
+var _chosen: Dictionary[Node, bool] = {}
 # Files that are not to be changed, and why, in words.
 var _locked: Dictionary[String, String] = {}
 var _in_files := false
@@ -132,7 +134,8 @@ func _change(slot: Slot) -> void:
 	slot.look_up(converter)
 	changes.append(slot)
 	for instance in find_owners(slot.node, root):
-		if instance not in instances and not root.is_editable_instance(instance):
+		if not _chosen.has(instance) and not root.is_editable_instance(instance):
+			_chosen[instance] = true
 			instances.append(instance)
 
 
@@ -182,9 +185,11 @@ func _has_alike(slot: Slot, instance: Node) -> bool:
 
 
 func _leave(node: Node, reason: String) -> void:
-	var line := "%s: %s" % [root.get_path_to(node), reason]
-	if line not in left:
-		left.append(line)
+	var paths: Array = left.get_or_add(reason, [])
+	var path := str(root.get_path_to(node))
+	# A node is looked at once.
+	if paths.is_empty() or paths.back() != path:
+		paths.append(path)
 
 
 ## What users know a material by: its name, or its file.

@@ -71,8 +71,8 @@ static func describe(conversion: SceneConversion) -> String:
 		_describe_plan(file.plan, file.path, lines)
 	if not plan.left.is_empty():
 		lines.append("Left as they are, or to be looked at:")
-		for line in plan.left:
-			lines.append("  " + line)
+		for reason in plan.left:
+			lines.append("  %s: %s" % [_list(plan.left[reason]), reason])
 	return "\n".join(lines)
 
 
@@ -97,18 +97,14 @@ static func _describe_material(
 	plan: Plan,
 	material: Material,
 	made: Material,
-	users: Dictionary[Material, PackedStringArray],
+	users: Dictionary[Material, Array],
 	lines: PackedStringArray
 ) -> void:
 	var origin := material.resource_path.get_slice("::", 0)
 	var line := "  " + Plan.name_of(material)
 	if origin and origin != plan.root.scene_file_path:
 		line += " of %s" % origin
-	var nodes: PackedStringArray = users.get(material, PackedStringArray())
-	line += ", on " + ", ".join(nodes.slice(0, _NAMED))
-	if nodes.size() > _NAMED:
-		line += " and %s more" % Wording.count(nodes.size() - _NAMED, "node")
-	lines.append(line)
+	lines.append(line + ", on " + _list(users[material]))
 	var losses := plan.converter.get_losses(material)
 	if not losses.is_empty():
 		lines.append("    lost: " + ", ".join(losses))
@@ -118,15 +114,21 @@ static func _describe_material(
 
 
 # The paths of the nodes that show a material, in a next pass too.
-static func _find_users(plan: Plan) -> Dictionary[Material, PackedStringArray]:
-	var users: Dictionary[Material, PackedStringArray] = {}
+static func _find_users(plan: Plan) -> Dictionary[Material, Array]:
+	var users: Dictionary[Material, Array] = {}
 	for change in plan.changes:
 		var path := str(plan.root.get_path_to(change.node))
 		for material in change.materials:
 			while material != null:
-				var paths: PackedStringArray = users.get(material, PackedStringArray())
-				if path not in paths:
+				var paths: Array = users.get_or_add(material, [])
+				if paths.is_empty() or paths.back() != path:
 					paths.append(path)
-					users[material] = paths
 				material = material.next_pass
 	return users
+
+
+static func _list(paths: Array) -> String:
+	var text := ", ".join(paths.slice(0, _NAMED))
+	if paths.size() > _NAMED:
+		text += " and %s more" % Wording.count(paths.size() - _NAMED, "node")
+	return text

@@ -1,7 +1,9 @@
 @tool
 extends EditorResourceConversionPlugin
 ## "Convert to LobeMaterial3D" in the inspector's menu of a [StandardMaterial3D] or
-## [ORMMaterial3D] and in the file system's, and the way back.
+## [ORMMaterial3D] and in the file system's, and the way back. Next passes go along.
+
+const Converter := preload("material_converter.gd")
 
 ## Whether it converts from Godot's materials or to them.
 var to_lobes := true
@@ -21,7 +23,10 @@ func _handles(resource: Resource) -> bool:
 
 func _convert(resource: Resource) -> Resource:
 	if not to_lobes:
-		return (resource as LobeMaterial3D).to_standard()
+		var source := resource as LobeMaterial3D
+		var made := source.to_standard()
+		made.next_pass = Converter.new(false).convert_material(source.next_pass)
+		return made
 	return convert_to_lobes(resource as BaseMaterial3D)
 
 
@@ -36,4 +41,6 @@ static func convert_to_lobes(source: BaseMaterial3D) -> LobeMaterial3D:
 				% [name, ", ".join(losses)]
 			)
 		)
-	return LobeMaterial3D.from_standard(source)
+	var made := LobeMaterial3D.from_standard(source)
+	made.next_pass = Converter.new().convert_material(source.next_pass)
+	return made

@@ -51,6 +51,9 @@ func commit(conversion: SceneConversion) -> String:
 	if not conversion.plan.instances.is_empty():
 		var instances := Wording.count(conversion.plan.instances.size(), "instance")
 		toaster.push_toast("Editable Children is now on for %s." % instances)
+	if not conversion.files.files.is_empty():
+		var files := Wording.count(conversion.files.files.size(), "file")
+		toaster.push_toast("%s of scenes changed." % files)
 	if not conversion.plan.is_empty() or not conversion.plan.left.is_empty():
 		print("%s: %s" % [conversion.get_title(), report])
 	return report

@@ -30,6 +30,13 @@ func _notification(what: int) -> void:
 		_root.free()
 
 
+## Forgets what is only needed until the file has been saved: the history keeps this object.
+func release() -> void:
+	plan = null
+	if is_instance_valid(_root):
+		_root.free()
+
+
 ## Works out the file's new state; a sentence if that fails. No file is changed by it.
 func prepare() -> String:
 	_bytes[0] = FileAccess.get_file_as_bytes(path)

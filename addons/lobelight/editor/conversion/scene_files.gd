@@ -42,6 +42,8 @@ func save() -> String:
 	if problem:
 		for index in count:
 			files[index].switch(false)
+	for file in files:
+		file.release()
 	return problem
 
 
