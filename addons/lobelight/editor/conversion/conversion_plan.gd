@@ -146,11 +146,11 @@ func _choose_file(slot: Slot) -> String:
 	if instance.scene_file_path.is_empty():
 		instance = instance.owner
 	while instance != null and instance != root and slot.node != root:
-		var file := instance.scene_file_path
-		var reason := find_lock(file)
-		if reason.is_empty() and _has_alike(slot, instance):
-			return file
-		if reason:
+		if _has_alike(slot, instance):
+			var file := instance.scene_file_path
+			var reason := find_lock(file)
+			if reason.is_empty():
+				return file
 			_leave(instance, "%s: %s" % [file, reason])
 		instance = instance.owner
 	return ""
