@@ -237,6 +237,12 @@ func test_outlines_are_drawn_by_a_pass_as_godots() -> void:
 	var converted := LobeMaterial3D.from_standard(materials[1] as BaseMaterial3D)
 	assert_bool(converted.next_pass == materials[1].next_pass).is_false()
 	assert_object(converted.next_pass.next_pass).is_not_null()
+	# So has one whose pass was converted with it.
+	var drawn := LobeMaterial3D.from_standard(materials[0].next_pass as BaseMaterial3D)
+	drawn.set_meta(&"_stencil_owned", true)
+	materials[0].next_pass = drawn
+	materials[0].set("stencil_color", Color.BLUE)
+	assert_that(drawn.albedo_color).is_equal(Color.BLUE)
 	for material in materials:
 		material.set("stencil_mode", BaseMaterial3D.STENCIL_MODE_DISABLED)
 		assert_object(material.next_pass).is_same(further)

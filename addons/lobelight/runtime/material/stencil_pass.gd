@@ -50,24 +50,25 @@ static func choose(shown: Material, mode: BaseMaterial3D.StencilMode) -> void:
 		shown.next_pass = drawn
 	var is_outline := mode == BaseMaterial3D.STENCIL_MODE_OUTLINE
 	drawn.render_priority = shown.render_priority + 1
-	drawn.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
-	drawn.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA
-	drawn.no_depth_test = not is_outline
-	drawn.grow = is_outline
-	drawn.stencil_mode = BaseMaterial3D.STENCIL_MODE_CUSTOM
-	drawn.stencil_flags = BaseMaterial3D.STENCIL_FLAG_READ
-	drawn.stencil_compare = BaseMaterial3D.STENCIL_COMPARE_NOT_EQUAL
+	drawn.set("shading_mode", BaseMaterial3D.SHADING_MODE_UNSHADED)
+	drawn.set("transparency", BaseMaterial3D.TRANSPARENCY_ALPHA)
+	drawn.set("no_depth_test", not is_outline)
+	drawn.set("grow", is_outline)
+	drawn.set("stencil_mode", BaseMaterial3D.STENCIL_MODE_CUSTOM)
+	drawn.set("stencil_flags", BaseMaterial3D.STENCIL_FLAG_READ)
+	drawn.set("stencil_compare", BaseMaterial3D.STENCIL_COMPARE_NOT_EQUAL)
 
 
 ## What draws the effect takes over what it looks like.
 static func hand_on(shown: Material, reference: int, colour: Color, thickness: float) -> void:
 	var drawn := _find(shown)
 	if drawn != null:
-		drawn.stencil_reference = reference
-		drawn.albedo_color = colour
-		drawn.grow_amount = thickness
+		drawn.set("stencil_reference", reference)
+		drawn.set("albedo_color", colour)
+		drawn.set("grow_amount", thickness)
 
 
-static func _find(shown: Material) -> BaseMaterial3D:
-	var next := shown.next_pass as BaseMaterial3D
+# Whole scenes are converted with their passes: it is of either kind.
+static func _find(shown: Material) -> Material:
+	var next := shown.next_pass
 	return next if next != null and next.has_meta(OWNED) else null
