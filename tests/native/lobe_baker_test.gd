@@ -49,7 +49,7 @@ const ALBEDO_REFUSED := [
 		Vector3(0, 0, 1),
 		(
 			'brdf is "phong", which is not known; known are "ward", "ward_bounded", "ggx", '
-			+ "and files of measurements (.binary, .bsdf)."
+			+ '"charlie", and files of measurements (.binary, .bsdf).'
 		),
 	],
 	[
