@@ -135,12 +135,14 @@ func test_reflections_behind_walls_and_in_grooves() -> void:
 	assert_float(sqrt(squares[3])).is_less(0.23)
 
 
-## A normal that is bent away from the viewer has its lobes below the mesh's horizon.
+## Lobes of a normal that is bent away from the viewer lie below the mesh's horizon. There they meet
+## the surface, which is as bright as its colour.
 func test_the_surface_hides_what_is_below_its_horizon() -> void:
 	await _light(Kit.constant(1.0))
 	var views: Array[Array] = []
 	for n in 18:
 		views.append([[0.2, 0.6, 1.0][n % 3], 1.1 * n])
+	var own := 0.3
 	var quads := _add_quads(views, 1.0)
 	var bends := PackedVector3Array()
 	for n in quads.size():
@@ -148,6 +150,7 @@ func test_the_surface_hides_what_is_below_its_horizon() -> void:
 		var bend := Vector3(sin(0.15 * (n % 6)), 0.0, cos(0.15 * (n % 6)))
 		bends.append(bend.rotated(Vector3.BACK, 0.7 * n))
 		quad.material.roughness = [0.25, 0.6][n % 2]
+		quad.material.albedo_color = Color(own, own, own).linear_to_srgb()
 		quad.material.normal_enabled = true
 		quad.material.normal_texture = _direction(bends[n])
 		quad.material.disable_specular_occlusion = true
@@ -164,8 +167,8 @@ func test_the_surface_hides_what_is_below_its_horizon() -> void:
 		var above := frame.transposed() * Vector3.BACK
 		var is_above := func(d: Vector3) -> bool: return d.dot(above) > 0.0
 		var share := func(mean: Vector3, kappa: float) -> float:
-			return Occluder.share_within(mean, kappa, is_above)
-		var traced := _traced(quad, share, frame.transposed() * quad.view)
+			return lerpf(own, 1.0, Occluder.share_within(mean, kappa, is_above))
+		var traced := _traced(quad, share, frame.transposed() * quad.view, own)
 		var found := quad.look_into(image) / quad.look_into(whole)
 		squares += (found - traced) * (found - traced) / quads.size()
 		untouched += (1.0 - traced) * (1.0 - traced) / quads.size()
@@ -174,6 +177,14 @@ func test_the_surface_hides_what_is_below_its_horizon() -> void:
 	print("horizon: mean error (RMS) %.3f, without %.3f" % [sqrt(squares), sqrt(untouched)])
 	assert_float(sqrt(untouched)).is_greater(0.1)
 	assert_float(sqrt(squares)).is_less(0.035)
+
+
+func test_a_white_furnace_stays_white_under_a_normal_map() -> void:
+	await _light(Kit.constant(1.0))
+	var quad := _add_quads([[1.0, 0.0]], 1.0)[0] as Tilted
+	quad.material.normal_enabled = true
+	quad.material.normal_texture = _direction(Vector3(-0.6, 0.0, 0.8))
+	_assert_close(quad.look_into(await _view.capture()), 1.0, 0.005, "furnace")
 
 
 func test_plastic_reflects_and_scatters_what_it_sees() -> void:
@@ -276,11 +287,11 @@ func _make_occluders() -> Array[Occluder]:
 
 # The share of the light of a lobe's Gaussian that a function of its mean and sharpness gives, over
 # all lobes.
-func _traced(quad: Tilted, share: Callable, view := Vector3.ZERO) -> float:
+func _traced(quad: Tilted, share: Callable, view := Vector3.ZERO, f0 := 1.0) -> float:
 	var local := view if view != Vector3.ZERO else quad.view
 	var table := _tables.table_at(LobeMaterial3D.widths_of(quad.material.roughness, 0.0))
 	var sums := Oracle._sums(table, Basis.IDENTITY, local, share)
-	return sums[4] / sums[2]
+	return (f0 * sums[4] + (1.0 - f0) * sums[5]) / (f0 * sums[2] + (1.0 - f0) * sums[3])
 
 
 # Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 26.

@@ -13,7 +13,7 @@ from probe_textures import LEVELS_SIZE
 from probes import DIVISION, U, Near, Probe, Texture, pow_error, single
 from shader_light import expect_diffuse, sums
 from shader_frames import orthonormal_frame, projection
-from shader_occlusion import hidden_odds, open_share, share_above
+from shader_occlusion import hidden_odds, lit, open_share, share_above
 from shader_points import light, turn, view_at
 from shader_tables import odd_table
 from shader_values import encode_error
@@ -144,7 +144,7 @@ def bent_normal(surface, row):
     return normalised(shader.columns_times((*frame[:2], shading_frame(surface, row)[2]), (x, y, z))), z
 
 
-def occlusion_of(surface, row, ao, camera, normal, is_coat):
+def occlusion_of(surface, row, ao, camera, normal, own, is_coat):
     """What sums() asks, about a normal in the environment's space; coats lie on the mesh."""
     is_bent = "bent" in surface.maps
     is_occluded = "orm" in surface.maps or "ao" in surface.maps
@@ -165,7 +165,8 @@ def occlusion_of(surface, row, ao, camera, normal, is_coat):
                 here.append(open_share(is_bent, odds, shader.dot(open_to, mean), lobe.variance, *off))
             if "normal" in surface.maps and not is_coat:
                 cosines = shader.dot(normal, mean), shader.dot(geometric, mean)
-                here.append(share_above(*cosines, lobe.variance, *off))
+                above, above_off = share_above(*cosines, lobe.variance, *off)
+                here.append((lit(above, own.value), above_off + own.off + 4 * U))
             parts.append(here)
         for n in (0, 1):
             share = mpf(1)
@@ -205,13 +206,14 @@ def expect_material(surface, cube, values, row, renderer):
 
     ao, roughness, metallic = occlusion_roughness_metallic(surface, row)
     anisotropy = mpf(surface.anisotropy) * (surface.texel(row, "flow") or (0, 0, 0, 1))[3]
-    visible = occlusion_of(surface, row, ao, camera, shader.columns_times(camera, axes[2]), False)
-    reflection = channels(
-        *sums(surface.table, local, cube, values, to_environment, float(roughness), float(anisotropy), visible)
-    )
     base = [About(b, 2 * U) for b in vector(surface.albedo)]
     if texel := surface.texel(row, "albedo"):
         base = [b * decoded(x, renderer) for b, x in zip(base, texel)]
+    own = ((base[0] + base[1] + base[2]) * About(mpf(1) / 3, U)).clamped(0, 1)
+    visible = occlusion_of(surface, row, ao, camera, shader.columns_times(camera, axes[2]), own, False)
+    reflection = channels(
+        *sums(surface.table, local, cube, values, to_environment, float(roughness), float(anisotropy), visible)
+    )
     is_occluded = "orm" in surface.maps or "ao" in surface.maps
     d0, d90 = vector(surface.dielectric or (0.0, 1.0))
     albedo = reflection[2].clamped("0.05", 1e9)
@@ -248,7 +250,7 @@ def expect_material(surface, cube, values, row, renderer):
                 cube,
                 values,
                 lambda d: shader.columns_times(coat_axes, d),
-                visible=occlusion_of(surface, row, ao, camera, n, True),
+                visible=occlusion_of(surface, row, ao, camera, n, own, True),
             )
         )
     checks = []

@@ -66,6 +66,11 @@ def share_above(normal_cosine, geometric_cosine, variance, cosine_off=0.0, relat
     return min(share, mpf(1)), off
 
 
+def lit(above, own):
+    """Of a lobe, where the surface itself sends out a share of the light around it."""
+    return above + (1 - above) * own
+
+
 def expect_occlusion(is_bent, row):
     open_to, ao, mean, variance = vector(row[:3]), row[3], vector(row[4:7]), mpf(row[7])
     normal, bent_cosine, geometric = vector(row[8:11]), row[11], vector(row[12:15])
@@ -74,7 +79,7 @@ def expect_occlusion(is_bent, row):
     return [
         Near((0,), (near,), near_off, "share"),
         Near((1,), (above,), above_off, "share"),
-        Near((2,), (near * above,), float(near) * above_off + float(above) * near_off + U, "share"),
+        Near((2,), (near * lit(above, mpf("0.25")),), float(near) * above_off + near_off + 3 * U, "share"),
         Near((3,), (1,), U, "share"),
     ]
 

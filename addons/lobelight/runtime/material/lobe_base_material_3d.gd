@@ -155,8 +155,9 @@ var specular_mode: BaseMaterial3D.SpecularMode = BaseMaterial3D.SPECULAR_SCHLICK
 		_queue_update()
 ## Whether reflections do without the occlusion that [member ao_texture], [member
 ## bent_normal_texture] and [member normal_texture] make. Each lobe is occluded by its own direction
-## and width: what is near hides those more that point away from what is open, and the surface those
-## of a bent normal that point below the mesh's horizon. Diffuse light is occluded all the same.
+## and width: what is near hides those more that point away from what is open, and those of a bent
+## normal that point below the mesh's horizon meet the surface, which is as bright as its colour.
+## Diffuse light is occluded all the same.
 @export var disable_specular_occlusion := false:
 	set(value):
 		disable_specular_occlusion = value
