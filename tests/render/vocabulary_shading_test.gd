@@ -10,6 +10,8 @@ const SIDE := 48
 # A picture that is like another one, and one that is not, in decibels.
 const ALIKE := 40.0
 const CHANGED := 55.0
+# Where little light shines through; equal pictures have 120.
+const FAINT := 100.0
 
 ## What to set, one after the other: each of them has to change the picture.
 const CASES := [
@@ -251,10 +253,11 @@ func test_light_below_the_surface() -> void:
 	await _compare({"subsurf_scatter_skin_mode": true}, spread)
 	spread["subsurf_scatter_transmittance_enabled"] = true
 	spread["subsurf_scatter_transmittance_boost"] = 0.5
-	await _compare({"subsurf_scatter_transmittance_boost": 1.0}, spread)
-	await _compare({"subsurf_scatter_transmittance_color": Color.RED}, spread)
-	await _compare({"subsurf_scatter_transmittance_depth": 2.0}, spread)
-	await _compare({"subsurf_scatter_transmittance_texture": "half"}, spread)
+	spread["subsurf_scatter_transmittance_depth"] = 8.0
+	await _compare({"subsurf_scatter_transmittance_boost": 1.0}, spread, true, FAINT)
+	await _compare({"subsurf_scatter_transmittance_color": Color.RED}, spread, true, FAINT)
+	await _compare({"subsurf_scatter_transmittance_depth": 2.0}, spread, true, FAINT)
+	await _compare({"subsurf_scatter_transmittance_texture": "half"}, spread, true, FAINT)
 	RenderingServer.sub_surface_scattering_set_scale(0.05, 0.01)
 
 
@@ -344,7 +347,7 @@ func _assign(material: Material, values: Dictionary) -> void:
 
 
 # Of some values, the same with both materials, and another picture than without.
-func _compare(values: Dictionary, given := {}, is_alike := true) -> void:
+func _compare(values: Dictionary, given := {}, is_alike := true, changed := CHANGED) -> void:
 	var ours := LobeMaterial3D.new()
 	var godots := StandardMaterial3D.new()
 	for material: Material in [ours, godots]:
@@ -356,7 +359,7 @@ func _compare(values: Dictionary, given := {}, is_alike := true) -> void:
 	var got := await _draw(ours)
 	if is_alike:
 		_expect_alike(got, await _draw(godots), str(values))
-	_expect_changed(got, before, str(values))
+	_expect_changed(got, before, str(values), changed)
 
 
 func _draw(material: Material) -> Image:
@@ -372,10 +375,10 @@ func _expect_alike(got: Image, expected: Image, what: String) -> void:
 	assert_float(found).append_failure_message(message).is_greater(ALIKE)
 
 
-func _expect_changed(got: Image, before: Image, what: String) -> void:
+func _expect_changed(got: Image, before: Image, what: String, changed := CHANGED) -> void:
 	var found := Kit.psnr(got, before)
 	var message := "%s: no change, %.1f dB" % [what, found]
-	assert_float(found).append_failure_message(message).is_less(CHANGED)
+	assert_float(found).append_failure_message(message).is_less(changed)
 
 
 func _paint(colour: Callable) -> ImageTexture:
