@@ -80,6 +80,11 @@ static var _variants_mutex := Mutex.new()
 # Kept, because the object is no longer whole when it is told of its end.
 var _rid := get_rid()
 var _queued := false
+# Parts that are to be handed on; whether the shader's code is that of the properties, but for the
+# lobes; and the lobes that it is for.
+var _parts := 0
+var _knows_shape := false
+var _shape := 0
 var _shader: Shader
 # What the lobes come from, and the rendering server's textures, kept alive.
 var _choice := TableChoice.new()
@@ -189,6 +194,12 @@ func _get_fragment_path() -> String:
 
 # Several changed properties, as a file's are, make one shader. It is there before the next frame.
 func _queue_update() -> void:
+	_knows_shape = false
+	_queue_part(Parts.ALL)
+
+
+func _queue_part(part: int) -> void:
+	_parts |= part
 	if not _queued:
 		_queued = true
 		_update.call_deferred()
@@ -207,11 +218,21 @@ func _update_albedo() -> void:
 func _update() -> void:
 	_mutex.lock()
 	_queued = false
-	var code := get_shader_code()
-	if _shader == null or _shader.code != code:
-		_shader = _get_variant(code)
-		RenderingServer.material_set_shader(_rid, _shader.get_rid())
-	MaterialParameters.apply(self, _choice)
+	var parts := _parts
+	_parts = 0
+	# Before the look: what changes meanwhile, on another thread, is looked at again.
+	var is_known := _knows_shape
+	_knows_shape = true
+	if parts & Parts.TABLE:
+		_look()
+	var shape := _choice.get_shape()
+	if not is_known or shape != _shape:
+		_shape = shape
+		var code := get_shader_code()
+		if _shader == null or _shader.code != code:
+			_shader = _get_variant(code)
+			RenderingServer.material_set_shader(_rid, _shader.get_rid())
+	MaterialParameters.apply(self, _choice, parts)
 	_mutex.unlock()
 
 

@@ -6,6 +6,7 @@ extends Object
 ## all.
 
 const CoordinateParameters := preload("coordinate_parameters.gd")
+const Parts := preload("surface_parts.gd")
 const TableChoice := preload("table_choice.gd")
 
 # As Godot's own materials have them, gray being the mean.
@@ -23,28 +24,35 @@ static func set_albedo(material: RID, albedo: Color) -> void:
 	_give(material, &"lobelight_alpha", albedo.a)
 
 
-## Only what the material's variant of the shader has.
-static func apply(surface: LobeBaseMaterial3D, choice: TableChoice) -> void:
-	var material := surface.get_rid()
-	_apply_table(material, choice)
-	_apply_coat(surface, choice)
-	_apply_sheen(surface, choice)
-	_apply_textures(surface)
-	if surface.is_dielectric():
-		_give(material, &"lobelight_metallic", surface.metallic)
-		_give(material, &"lobelight_specular_amount", surface.metallic_specular)
-		# Godot 4.6, scene_forward_lights_inc.glsl, F0 and light_compute: what reflects less than 2 % is
-		# taken for occluded.
-		var f0 := 0.16 * surface.metallic_specular * surface.metallic_specular
-		_give(material, &"lobelight_dielectric", Vector2(f0, minf(50.0 * f0, 1.0)))
-	if surface.emits():
+## Only what the material's variant of the shader has, and of it only some [param parts], flags of
+## Parts.
+static func apply(surface: LobeBaseMaterial3D, choice: TableChoice, parts: int) -> void:
+	if parts & Parts.TABLE:
+		_apply_table(surface.get_rid(), choice)
+		_apply_coat(surface, choice)
+		_apply_sheen(surface, choice)
+	if parts & Parts.METAL and surface.is_dielectric():
+		_apply_metal(surface)
+	if parts & Parts.EMISSION and surface.emits():
 		_apply_emission(surface)
-	if surface.has_alpha():
-		_give(material, &"lobelight_alpha_scissor_threshold", surface.alpha_scissor_threshold)
-		_give(material, &"lobelight_alpha_hash_scale", surface.alpha_hash_scale)
-	CoordinateParameters.apply(surface)
-	_apply_fades(surface)
-	_apply_lamps(surface)
+	if parts & Parts.TEXTURES:
+		_apply_textures(surface)
+	if parts & Parts.COORDINATES:
+		CoordinateParameters.apply(surface)
+	if parts & Parts.FADES:
+		_apply_fades(surface)
+	if parts & Parts.LAMPS:
+		_apply_lamps(surface)
+
+
+static func _apply_metal(surface: LobeBaseMaterial3D) -> void:
+	var material := surface.get_rid()
+	_give(material, &"lobelight_metallic", surface.metallic)
+	_give(material, &"lobelight_specular_amount", surface.metallic_specular)
+	# Godot 4.6, scene_forward_lights_inc.glsl, F0 and light_compute: what reflects less than 2 % is
+	# taken for occluded.
+	var f0 := 0.16 * surface.metallic_specular * surface.metallic_specular
+	_give(material, &"lobelight_dielectric", Vector2(f0, minf(50.0 * f0, 1.0)))
 
 
 static func _apply_table(material: RID, choice: TableChoice) -> void:
@@ -125,6 +133,9 @@ static func _apply_textures(surface: LobeBaseMaterial3D) -> void:
 
 static func _apply_fades(surface: LobeBaseMaterial3D) -> void:
 	var material := surface.get_rid()
+	if surface.has_alpha():
+		_give(material, &"lobelight_alpha_scissor_threshold", surface.alpha_scissor_threshold)
+		_give(material, &"lobelight_alpha_hash_scale", surface.alpha_hash_scale)
 	if surface.has_smooth_alpha():
 		_give(material, &"lobelight_alpha_edge", surface.alpha_antialiasing_edge)
 		if surface.albedo_texture != null:

@@ -57,6 +57,25 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 		_choose_sheen(surface)
 
 
+## A number that is another one where the shader's code is, as far as it goes by the lobes.
+func get_shape() -> int:
+	var has_second_texels := table != null and table.has_second_texels()
+	var shape := lobe_count
+	shape = 64 * shape + (coat.lobe_count if coat != null else 0)
+	shape = 64 * shape + (sheen.lobe_count if sheen != null else 0)
+	var facts: Array[bool] = [
+		is_isotropic,
+		is_from_set,
+		widths_texture != null,
+		has_second_texels,
+		rotation != 0.0,
+		anisotropy < 0.0,
+	]
+	for fact in facts:
+		shape = 2 * shape + int(fact)
+	return shape
+
+
 func _choose_from(tables: LobeTableSet, surface: LobeBaseMaterial3D) -> void:
 	_stand_in = null
 	# Neither the engine nor flow maps turn negative anisotropy.
