@@ -15,6 +15,7 @@ const LightDialog := preload("probes/light_dialog.gd")
 const MaterialConversionPlugin := preload("conversion/material_conversion_plugin.gd")
 const MeasuredImporter := preload("import/measured_importer.gd")
 const PanoramaImporter := preload("import/panorama_importer.gd")
+const PresetInspector := preload("presets/preset_inspector.gd")
 const ProbeGizmo := preload("gizmos/probe_gizmo.gd")
 const ProbeInspector := preload("probes/probe_inspector.gd")
 const ProjectSettingsPage := preload("project_settings.gd")
@@ -34,6 +35,7 @@ var _bake_dialog: BakeDialog
 var _table_inspector: TableInspector
 var _importers: Array[EditorImportPlugin] = []
 var _gltf_import: GltfImport
+var _preset_inspector: PresetInspector
 var _warning_inspector: WarningInspector
 var _tools_menu: ToolsMenu
 var _probe_gizmo: ProbeGizmo
@@ -69,6 +71,8 @@ func _enter_tree() -> void:
 	_gltf_import = GltfImport.new()
 	_gltf_import.start()
 	add_scene_post_import_plugin(_gltf_import)
+	_preset_inspector = PresetInspector.new(get_undo_redo())
+	add_inspector_plugin(_preset_inspector)
 	_warning_inspector = WarningInspector.new()
 	add_inspector_plugin(_warning_inspector)
 	# Freed with the plugin.
@@ -97,6 +101,8 @@ func _exit_tree() -> void:
 	_tangent_warning = null
 	remove_inspector_plugin(_table_inspector)
 	_table_inspector = null
+	remove_inspector_plugin(_preset_inspector)
+	_preset_inspector = null
 	remove_inspector_plugin(_warning_inspector)
 	_warning_inspector = null
 	remove_inspector_plugin(_probe_inspector)

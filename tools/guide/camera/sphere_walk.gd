@@ -3,7 +3,9 @@ extends "walk.gd"
 ## The guide's list of clicks, from an empty project to a brushed sphere in the light of the sky.
 
 const ADDON := "lobelight"
-const ANISOTROPY := 0.9
+const LOOK := "Brushed Metal"
+# That of the look.
+const ANISOTROPY := 0.95
 
 
 func go() -> void:
@@ -25,8 +27,7 @@ func go() -> void:
 	await _take.call("3_sphere")
 	await _mouse.click(Finder.button(Finder.property(&"material_override"), ""), "the material")
 	await _mouse.wait(1.0)
-	await _unfold("Anisotropy")
-	await _drag_anisotropy()
+	await _choose_preset()
 	await _mouse.wait(2.0)
 	await _take.call("4_material")
 
@@ -45,15 +46,13 @@ func _enable() -> void:
 	await _mouse.click(Finder.button(settings, "Close"), "Close")
 
 
-func _drag_anisotropy() -> void:
-	var property := Finder.property(&"anisotropy")
-	await _mouse.scroll_to(EditorInterface.get_inspector(), property)
-	var slider := Finder.of_class(property, "EditorSpinSlider") as EditorSpinSlider
-	# The grabber shows below the mouse.
-	await _mouse.move(_mouse.find_rect(slider).get_center())
-	var grabber := Finder.of_class(slider, "TextureRect") as Control
-	var range_of_values := slider.max_value - slider.min_value
-	var way := slider.size.x - grabber.size.x if grabber != null else 0.0
-	await _mouse.drag(grabber, Vector2(way * ANISOTROPY / range_of_values, 0.0), "Anisotropy")
-	var value: float = property.get_edited_object().get(&"anisotropy")
-	_expect(absf(value - ANISOTROPY) < 0.1, "anisotropy of 0.9, not %s" % value)
+func _choose_preset() -> void:
+	var choice := Finder.button(EditorInterface.get_inspector(), "Choose …")
+	await _mouse.scroll_to(EditorInterface.get_inspector(), choice)
+	await _mouse.click(choice, "Preset")
+	await _mouse.choose(choice, LOOK)
+	await _mouse.wait(1.0)
+	var material: LobeMaterial3D = EditorInterface.get_inspector().get_edited_object().get(
+		&"material_override"
+	)
+	_expect(material.anisotropy == ANISOTROPY, "a look of anisotropy %s" % ANISOTROPY)
