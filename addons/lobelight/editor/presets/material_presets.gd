@@ -15,6 +15,7 @@ const _PLAIN: Dictionary[StringName, Variant] = {
 	&"anisotropy_enabled": false,
 	&"anisotropy": 0.0,
 	&"anisotropy_rotation": 0.0,
+	&"sheen_enabled": false,
 	&"table": null,
 }
 const _LIST: Dictionary[String, Dictionary] = {
@@ -56,6 +57,14 @@ const _LIST: Dictionary[String, Dictionary] = {
 		&"roughness": 0.5,
 		&"anisotropy_enabled": true,
 		&"anisotropy": 0.85,
+	},
+	"Velvet":
+	{
+		&"albedo_color": Color(0.3, 0.03, 0.08),
+		&"roughness": 1.0,
+		&"sheen_enabled": true,
+		&"sheen_color": Color(0.9, 0.4, 0.5),
+		&"sheen_roughness": 0.5,
 	},
 	"Varnished Wood":
 	{
