@@ -7,6 +7,7 @@ extends Object
 const SKIES := "light of skies and captures"
 const FILTERS := "the filters Box and Binomial"
 const PLACES := "probes and lights of several worlds"
+const ANTIALIASING := "antialiasing of reflections"
 const CONVERSION := "conversion between materials"
 const RENDERING_DEVICE := "the renderers Forward+ and Mobile"
 const COMPATIBILITY := "the renderer Compatibility"

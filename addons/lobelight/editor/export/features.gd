@@ -28,6 +28,7 @@ const WARNINGS := "warnings, which the editor shows"
 
 ## Folders of the run time that nothing but the feature needs. Each of them stays or goes whole.
 const FOLDERS: Dictionary[String, String] = {
+	"antialiasing": OnDemand.ANTIALIASING,
 	"clear_coat": COAT,
 	"compatibility": OnDemand.COMPATIBILITY,
 	"conversion": OnDemand.CONVERSION,
@@ -50,6 +51,7 @@ const FOLDERS: Dictionary[String, String] = {
 }
 ## What shaders that others share ask for where they are to draw the feature.
 const DEFINES: Dictionary[String, String] = {
+	OnDemand.ANTIALIASING: "LOBELIGHT_ANTIALIASED",
 	DETAIL: "LOBELIGHT_DETAIL",
 	MSDF: "LOBELIGHT_MSDF",
 	PARALLAX: "LOBELIGHT_PARALLAX",
@@ -63,6 +65,7 @@ const DEFINES: Dictionary[String, String] = {
 const _WORDS: Dictionary[String, String] = {
 	COAT: "clearcoat\\w*",
 	DIFFUSE: "metallic|metallic_texture|orm_texture",
+	OnDemand.ANTIALIASING: "bake_normal_variance|specular_antialiasing|normal_(enabled|texture)",
 	OCCLUSION: "ao_enabled|ao_texture|orm_texture|normal_enabled|normal_texture",
 	SHEEN: "sheen_\\w+",
 	FADES: "\\w+_fade_\\w+|refraction_\\w+",
@@ -84,7 +87,7 @@ const _WORDS: Dictionary[String, String] = {
 }
 # What a material has that a script gives its properties.
 const _OF_MATERIALS: PackedStringArray = [
-	COAT, DETAIL, DIFFUSE, FADES, LAMPS, MSDF, OCCLUSION, PARALLAX, SHEEN, TRIPLANAR, VERTICES
+	OnDemand.ANTIALIASING, COAT, DETAIL, DIFFUSE, FADES, LAMPS, MSDF, OCCLUSION, PARALLAX, SHEEN, TRIPLANAR, VERTICES
 ]
 const _METHOD := "rendering/renderer/rendering_method"
 const _FALLBACK := "rendering/rendering_device/fallback_to_opengl3"
@@ -141,6 +144,8 @@ func look_at_material(file: String, material: LobeMaterial3D) -> void:
 		add(COAT, file)
 	if material.is_dielectric():
 		add(DIFFUSE, file)
+	if material.is_antialiased():
+		add(OnDemand.ANTIALIASING, file)
 	if material.occludes_reflections():
 		add(OCCLUSION, file)
 	if material.detail_enabled:

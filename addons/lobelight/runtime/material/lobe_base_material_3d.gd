@@ -9,6 +9,16 @@ extends ShaderMaterial
 ## animations written for a [StandardMaterial3D] work on a [LobeMaterial3D]. Where a property goes
 ## further, it says so.
 
+## When [member specular_antialiasing] widens reflections.
+enum SpecularAntialiasing {
+	## With a normal map.
+	AUTOMATIC,
+	## Never.
+	DISABLED,
+	## Always: where meshes are curved, too.
+	ENABLED,
+}
+
 # The hints of enumerations, as BaseMaterial3D's own.
 const _TRANSPARENCIES := "Disabled,Alpha,Alpha Scissor,Alpha Hash,Depth Pre-Pass"
 const _BLEND_MODES := "Mix,Add,Subtract,Multiply,Premultiplied Alpha"
@@ -321,6 +331,20 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 @export var normal_texture: Texture2D:
 	set(value):
 		normal_texture = value
+		_queue_update()
+## How much the normals of [member normal_texture] differ within each texel of its smaller levels.
+## Bumps seen from afar need it to look as rough as they are. The inspector makes it, with [b]Bake
+## Normal Variance[/b], and so does [method LobeMaterial3D.bake_normal_variance]. It takes one fetch.
+## [BaseMaterial3D] has none.
+@export var normal_variance_texture: Texture2D:
+	set(value):
+		normal_variance_texture = value
+		_queue_update()
+## Whether reflections are as wide as the BRDF and the normals within each pixel together, so that
+## bumps do not sparkle when the camera moves. [BaseMaterial3D] has none.
+@export var specular_antialiasing := SpecularAntialiasing.AUTOMATIC:
+	set(value):
+		specular_antialiasing = value
 		_queue_update()
 
 @export_group("Bent Normal Map", "bent_normal_")
@@ -1026,6 +1050,21 @@ func moves_vertices() -> bool:
 ## Whether what the mesh has for tangents does not count.
 func makes_tangents() -> bool:
 	return uv1_triplanar or uv2_triplanar
+
+
+## Whether a texture tells what the normal map's levels have lost. It knows nothing of projections from
+## three sides.
+func has_normal_variance() -> bool:
+	if not normal_enabled or normal_texture == null or uv1_triplanar:
+		return false
+	return normal_variance_texture != null and is_antialiased()
+
+
+## Whether normals that differ within a pixel widen reflections.
+func is_antialiased() -> bool:
+	if specular_antialiasing == SpecularAntialiasing.AUTOMATIC:
+		return has_normal_map()
+	return specular_antialiasing == SpecularAntialiasing.ENABLED
 
 
 ## Whether a texture occludes the surface.

@@ -34,11 +34,13 @@ const Conversion := preload("conversion.gd")
 const LightRegistry := preload("../light/light_registry.gd")
 const MaterialParameters := preload("material_parameters.gd")
 const MaterialShader := preload("material_shader.gd")
+const NormalVariance := preload("normal_variance.gd")
 const ShownProperties := preload("shown_properties.gd")
 const TableChoice := preload("table_choice.gd")
 
 # Loaded here so that exported projects contain them.
 const _INCLUDES: Array[ShaderInclude] = [
+	preload("../antialiasing/normal_variance.gdshaderinc"),
 	preload("../clear_coat/clear_coat.gdshaderinc"),
 	preload("../shaders/colour.gdshaderinc"),
 	preload("../shaders/coordinates.gdshaderinc"),
@@ -119,6 +121,14 @@ static func from_standard(source: BaseMaterial3D) -> LobeMaterial3D:
 static func get_losses_from(source: BaseMaterial3D) -> PackedStringArray:
 	var conversion: Conversion = Conversion.find()
 	return conversion.get_losses(source) if conversion != null else PackedStringArray()
+
+
+## A [member LobeBaseMaterial3D.normal_variance_texture] for a normal map, from its image. It takes
+## about a second for a million texels, and may be called from a thread. [code]null[/code], and an
+## error, if there is no image.
+static func bake_normal_variance(normals: Image) -> ImageTexture:
+	var variance: NormalVariance = NormalVariance.find()
+	return variance.bake(normals) if variance != null else null
 
 
 func _init() -> void:

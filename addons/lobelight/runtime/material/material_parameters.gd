@@ -117,6 +117,9 @@ static func _apply_textures(surface: LobeBaseMaterial3D) -> void:
 			&"lobelight_normal_scale",
 			surface.normal_scale if surface.normal_enabled else 1.0
 		)
+		_give_texture(
+			material, &"lobelight_normal_variance_texture", surface.normal_variance_texture
+		)
 	if surface.has_bent_normals():
 		_give_texture(material, &"lobelight_bent_normal_texture", surface.bent_normal_texture)
 	_give_texture(material, &"lobelight_flowmap", surface.anisotropy_flowmap)

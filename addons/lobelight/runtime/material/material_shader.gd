@@ -34,6 +34,7 @@ const _LAMP_TEXTURES: Dictionary[String, StringName] = {
 	"TRANSMITTANCE": &"subsurf_scatter_transmittance_texture",
 	"REFRACTION": &"refraction_texture",
 }
+const _LIMITER := "rendering/anti_aliasing/screen_space_roughness_limiter/enabled"
 ## Lookups of the diffuse light, see diffuse/diffuse.gdshaderinc.
 const DIFFUSE_FETCHES := 6
 
@@ -177,6 +178,10 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		defines.append("SHEEN")
 	if surface.emits():
 		defines.append("EMISSION")
+	if surface.is_antialiased():
+		defines.append("ANTIALIASED")
+		if _is_limited_by_engine():
+			defines.append("LIMITED_BY_ENGINE")
 	_add_alpha(surface, defines)
 	_add_fades(surface, defines)
 	_add_lamps(surface, defines)
@@ -187,6 +192,13 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		if surface.vertex_color_is_srgb:
 			defines.append("SRGB_VERTEX_COLOUR")
 	return defines
+
+
+# Whether the engine itself widens its lights' highlights where normals differ from pixel to pixel.
+static func _is_limited_by_engine() -> bool:
+	if RenderingServer.get_current_rendering_method() == "gl_compatibility":
+		return false
+	return ProjectSettings.get_setting(_LIMITER, true)
 
 
 static func _add_alpha(surface: LobeBaseMaterial3D, defines: PackedStringArray) -> void:
@@ -254,6 +266,8 @@ static func _add_textures(
 				defines.append("AO_ON_UV2")
 	if surface.has_normal_map():
 		defines.append("NORMAL_TEXTURE")
+		if surface.has_normal_variance():
+			defines.append("NORMAL_VARIANCE_TEXTURE")
 	if surface.has_bent_normals():
 		defines.append("BENT_NORMAL")
 	_add_occlusion(surface, defines)
