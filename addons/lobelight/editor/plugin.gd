@@ -14,6 +14,7 @@ const LightBakes := preload("probes/light_bakes.gd")
 const LightDialog := preload("probes/light_dialog.gd")
 const MaterialConversionPlugin := preload("conversion/material_conversion_plugin.gd")
 const MeasuredImporter := preload("import/measured_importer.gd")
+const NormalVarianceInspector := preload("antialiasing/normal_variance_inspector.gd")
 const PanoramaImporter := preload("import/panorama_importer.gd")
 const PresetInspector := preload("presets/preset_inspector.gd")
 const ProbeGizmo := preload("gizmos/probe_gizmo.gd")
@@ -42,6 +43,7 @@ var _probe_gizmo: ProbeGizmo
 var _light_bakes: LightBakes
 var _light_dialog: LightDialog
 var _probe_inspector: ProbeInspector
+var _normal_variance: NormalVarianceInspector
 
 
 func _enter_tree() -> void:
@@ -82,6 +84,8 @@ func _enter_tree() -> void:
 	EditorInterface.get_base_control().add_child(_light_dialog)
 	_probe_inspector = ProbeInspector.new(_light_bakes)
 	add_inspector_plugin(_probe_inspector)
+	_normal_variance = NormalVarianceInspector.new(get_undo_redo())
+	add_inspector_plugin(_normal_variance)
 	_tools_menu = ToolsMenu.new(_bakes, _light_bakes, _scene_menu)
 	add_tool_submenu_item(ToolsMenu.TITLE, _tools_menu)
 	_probe_gizmo = ProbeGizmo.new(get_undo_redo())
@@ -107,6 +111,8 @@ func _exit_tree() -> void:
 	_warning_inspector = null
 	remove_inspector_plugin(_probe_inspector)
 	_probe_inspector = null
+	remove_inspector_plugin(_normal_variance)
+	_normal_variance = null
 	_light_dialog.queue_free()
 	# It lives until a capture under way has ended.
 	_light_bakes.cancel_all()

@@ -87,7 +87,18 @@ const _WORDS: Dictionary[String, String] = {
 }
 # What a material has that a script gives its properties.
 const _OF_MATERIALS: PackedStringArray = [
-	OnDemand.ANTIALIASING, COAT, DETAIL, DIFFUSE, FADES, LAMPS, MSDF, OCCLUSION, PARALLAX, SHEEN, TRIPLANAR, VERTICES
+	OnDemand.ANTIALIASING,
+	COAT,
+	DETAIL,
+	DIFFUSE,
+	FADES,
+	LAMPS,
+	MSDF,
+	OCCLUSION,
+	PARALLAX,
+	SHEEN,
+	TRIPLANAR,
+	VERTICES
 ]
 const _METHOD := "rendering/renderer/rendering_method"
 const _FALLBACK := "rendering/rendering_device/fallback_to_opengl3"

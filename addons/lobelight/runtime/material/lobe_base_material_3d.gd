@@ -334,8 +334,8 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 		_queue_update()
 ## How much the normals of [member normal_texture] differ within each texel of its smaller levels.
 ## Bumps seen from afar need it to look as rough as they are. The inspector makes it, with [b]Bake
-## Normal Variance[/b], and so does [method LobeMaterial3D.bake_normal_variance]. It takes one fetch.
-## [BaseMaterial3D] has none.
+## Normal Variance[/b], and so does [method LobeMaterial3D.bake_normal_variance]. It takes one
+## fetch. [BaseMaterial3D] has none.
 @export var normal_variance_texture: Texture2D:
 	set(value):
 		normal_variance_texture = value
@@ -1052,8 +1052,8 @@ func makes_tangents() -> bool:
 	return uv1_triplanar or uv2_triplanar
 
 
-## Whether a texture tells what the normal map's levels have lost. It knows nothing of projections from
-## three sides.
+## Whether a texture tells what the normal map's levels have lost. It knows nothing of projections
+## from three sides.
 func has_normal_variance() -> bool:
 	if not normal_enabled or normal_texture == null or uv1_triplanar:
 		return false
