@@ -22,10 +22,11 @@ KNOWS = {
     "light": ("pyramid",),
     # Shows a light through a table. It preloads what its shader includes.
     "material": (
-        *("table", "light", "shaders", "clear_coat", "diffuse", "occlusion"),
+        *("table", "light", "shaders", "antialiasing", "clear_coat", "diffuse", "occlusion"),
         *("detail", "fades", "lamps", "msdf", "parallax", "sheen", "triplanar", "vertices"),
     ),
     # Parts that exports may leave out. They know those whom they serve, and these load them on demand.
+    "antialiasing": (),
     "clear_coat": (),
     "detail": (),
     "diffuse": (),

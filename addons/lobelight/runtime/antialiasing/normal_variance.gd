@@ -1,11 +1,11 @@
 @tool
-extends "../material/normal_variance.gd"
+extends Object
 ## Makes the [member LobeBaseMaterial3D.normal_variance_texture] of a normal map.
 
 
 ## A texture of half the map's size: the square root of the variance of x and y, together, of all
 ## normals within each texel, for every level. [code]null[/code], and an error, without an image.
-func bake(normals: Image) -> ImageTexture:
+static func bake(normals: Image) -> ImageTexture:
 	if normals == null or normals.is_empty():
 		push_error("Lobelight: the normal map has no image to bake its variance from.")
 		return null
@@ -33,7 +33,7 @@ func bake(normals: Image) -> ImageTexture:
 
 
 # Of 2 x 2 texels each: x, y, x^2 + y^2, one after the other.
-func _first_means(data: PackedByteArray, size: Vector2i, half: Vector2i) -> PackedFloat32Array:
+static func _first_means(data: PackedByteArray, size: Vector2i, half: Vector2i) -> PackedFloat32Array:
 	var means := PackedFloat32Array()
 	means.resize(3 * half.x * half.y)
 	var right := 3 if size.x > 1 else 0
@@ -59,7 +59,7 @@ func _first_means(data: PackedByteArray, size: Vector2i, half: Vector2i) -> Pack
 	return means
 
 
-func _means(finer: PackedFloat32Array, size: Vector2i, half: Vector2i) -> PackedFloat32Array:
+static func _means(finer: PackedFloat32Array, size: Vector2i, half: Vector2i) -> PackedFloat32Array:
 	var means := PackedFloat32Array()
 	means.resize(3 * half.x * half.y)
 	var right := 3 if size.x > 1 else 0
@@ -81,7 +81,7 @@ func _means(finer: PackedFloat32Array, size: Vector2i, half: Vector2i) -> Packed
 	return means
 
 
-func _deviations(means: PackedFloat32Array) -> PackedByteArray:
+static func _deviations(means: PackedFloat32Array) -> PackedByteArray:
 	var result := PackedByteArray()
 	@warning_ignore("integer_division")
 	var count := means.size() / 3

@@ -34,10 +34,11 @@ const Conversion := preload("conversion.gd")
 const LightRegistry := preload("../light/light_registry.gd")
 const MaterialParameters := preload("material_parameters.gd")
 const MaterialShader := preload("material_shader.gd")
-const NormalVariance := preload("normal_variance.gd")
+const OnDemand := preload("../on_demand.gd")
 const ShownProperties := preload("shown_properties.gd")
 const TableChoice := preload("table_choice.gd")
 
+const _NORMAL_VARIANCE := "res://addons/lobelight/runtime/antialiasing/normal_variance.gd"
 # Loaded here so that exported projects contain them.
 const _INCLUDES: Array[ShaderInclude] = [
 	preload("../antialiasing/normal_variance.gdshaderinc"),
@@ -127,8 +128,8 @@ static func get_losses_from(source: BaseMaterial3D) -> PackedStringArray:
 ## about a second for a million texels, and may be called from a thread. [code]null[/code], and an
 ## error, if there is no image.
 static func bake_normal_variance(normals: Image) -> ImageTexture:
-	var variance: NormalVariance = NormalVariance.find()
-	return variance.bake(normals) if variance != null else null
+	var baker := OnDemand.fetch(_NORMAL_VARIANCE, OnDemand.ANTIALIASING) as GDScript
+	return baker.call(&"bake", normals) as ImageTexture if baker != null else null
 
 
 func _init() -> void:
