@@ -33,7 +33,9 @@ static func bake(normals: Image) -> ImageTexture:
 
 
 # Of 2 x 2 texels each: x, y, x^2 + y^2, one after the other.
-static func _first_means(data: PackedByteArray, size: Vector2i, half: Vector2i) -> PackedFloat32Array:
+static func _first_means(
+	data: PackedByteArray, size: Vector2i, half: Vector2i
+) -> PackedFloat32Array:
 	var means := PackedFloat32Array()
 	means.resize(3 * half.x * half.y)
 	var right := 3 if size.x > 1 else 0
