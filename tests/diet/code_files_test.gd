@@ -25,6 +25,7 @@ const FEATURES: PackedStringArray = [
 	"gltf/lobe_gltf_extension.gd",
 	"fades/fades.gdshaderinc",
 	"lamps/lamps.gdshaderinc",
+	"engine_light/engine_light.gdshaderinc",
 ]
 
 ## A scene, and which of FEATURES it needs.
@@ -44,14 +45,16 @@ const ASKING := [
 	["$Light.filter = 1", [2]],
 	["$Light.panorama = null", [3, 4]],
 	["add_child(LobeEnvironment3D.new())", [3, 4]],
-	["material.set(property, 0.1)", [0, 1, 2, 3, 4, 7, 8, 9, 10, 11, 12, 13, 15, 16]],
+	["material.set(property, 0.1)", [0, 1, 2, 3, 4, 7, 8, 9, 10, 11, 12, 13, 15, 16, 17]],
 	["material.sheen_enabled = true", [13]],
 	["material.proximity_fade_enabled = true", [15]],
 	["material.refraction_enabled = true", [15]],
 	["material.rim_enabled = true", [16]],
+	["environment.ssao_enabled = true", [17]],
+	["material.diffuse_light = 2", [17]],
 	[
 		"var extension := LobeGLTFExtension.new()",
-		[0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16]
+		[0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17]
 	],
 	["LobeMaterial3D.get_losses_from(material)", [5]],
 	['material.call("to_standard")', [5]],

@@ -1,5 +1,5 @@
 extends GdUnitTestSuite
-## VoxelGI, which Forward+ has: it does not light a LobeMaterial3D, whose environment lights it
+## VoxelGI, which Forward+ has: it does not light a LobeMaterial3D whose environment lights it
 ## already, and what a LobeMaterial3D reflects does not light the scene again.
 
 const Kit := preload("support/render_kit.gd")
@@ -40,6 +40,7 @@ func test_no_light_twice() -> void:
 	var lobes := LobeMaterial3D.new()
 	lobes.roughness = 0.4
 	lobes.metallic = 0.5
+	lobes.diffuse_light = LobeMaterial3D.DiffuseLight.ENVIRONMENT
 	var lamp := StandardMaterial3D.new()
 	lamp.emission_enabled = true
 	lamp.emission = Color.WHITE

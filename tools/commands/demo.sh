@@ -16,6 +16,7 @@ usage: ./dev demo [--env N] [--renderer R] [--out DIR] [--json FILE]
        ./dev demo --pictures DIR [--renderer R]
        ./dev demo --cost [--out DIR]
        ./dev demo --engine-light FILE
+       ./dev demo --engine-diffuse FILE [--renderer R]
 
 --env N        only environment N: 1 hall, 2 sunset, 3 the interior, which is not measured
 --renderer R   mobile (default), gl_compatibility or forward_plus
@@ -27,6 +28,9 @@ usage: ./dev demo [--env N] [--renderer R] [--out DIR] [--json FILE]
                demo's surfaces cover; README.md and results.json go to DIR (default: docs/report/demo-cost)
 --engine-light FILE   draws one picture instead, in Forward+: what the engine's lights, fog, decals, reflection
                probes and VoxelGI make of a LobeMaterial3D (left) and of a StandardMaterial3D (right)
+--engine-diffuse FILE   draws one picture instead: white things in SSAO, a LightmapGI, a VoxelGI, SDFGI and a
+               ReflectionProbe with SSR, as far as the renderer has them, as LobeMaterial3Ds (above) and as
+               StandardMaterial3Ds (below); prints how far the diffuse light of both is apart
 USAGE
 }
 
@@ -36,6 +40,7 @@ out=""
 json=""
 chosen=""
 engine_light=""
+engine_diffuse=""
 all_pictures=""
 cost=false
 while (($# > 0)); do
@@ -46,7 +51,7 @@ while (($# > 0)); do
       ;;
     --window) window=true ;;
     --cost) cost=true ;;
-    --env | --renderer | --out | --json | --engine-light | --pictures)
+    --env | --renderer | --out | --json | --engine-light | --engine-diffuse | --pictures)
       [[ -n ${2:-} ]] || die "demo: $1 needs a value"
       case $1 in
         --env) chosen=$2 ;;
@@ -55,6 +60,7 @@ while (($# > 0)); do
         --json) json=$(realpath -m -- "$2") ;;
         --pictures) all_pictures=$(realpath -m -- "$2") ;;
         --engine-light) engine_light=$(realpath -m -- "$2") ;;
+        --engine-diffuse) engine_diffuse=$(realpath -m -- "$2") ;;
       esac
       shift
       ;;
@@ -116,6 +122,12 @@ fi
 if [[ -n $engine_light ]]; then
   godot_rendered forward_plus --no-header --script res://demo/commands/engine_light.gd -- --out "$engine_light"
   say "$engine_light"
+  exit
+fi
+
+if [[ -n $engine_diffuse ]]; then
+  godot_rendered "$renderer" --no-header --script res://demo/commands/engine_diffuse.gd -- --out "$engine_diffuse"
+  say "$engine_diffuse"
   exit
 fi
 

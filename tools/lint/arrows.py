@@ -32,6 +32,7 @@ KNOWS = {
     "diffuse": (),
     "fades": (),
     "lamps": (),
+    "engine_light": ("light",),
     "msdf": (),
     "parallax": (),
     "triplanar": (),

@@ -1,7 +1,8 @@
 @tool
 extends Object
-## What the project settings say of probes, with defaults and ranges.
+## What the project settings say of materials and probes, with defaults and ranges.
 
+const DiffuseSource := preload("../runtime/light/diffuse_source.gd")
 const LightStore := preload("../runtime/probes/light_store.gd")
 const ProbeSchedule := preload("../runtime/probes/probe_schedule.gd")
 
@@ -20,6 +21,7 @@ static func register() -> void:
 		PROPERTY_HINT_ENUM,
 		"32:32,64:64,128:128,256:256,512:512"
 	)
+	_add(DiffuseSource.SETTING, 0, PROPERTY_HINT_ENUM, "Automatic,Environment,Engine")
 	_add(ProbeSchedule.SETTING, ProbeSchedule.DEFAULT_VIEWS, PROPERTY_HINT_RANGE, "1,6,1")
 
 

@@ -52,7 +52,7 @@ var _word := RegEx.create_from_string("\\b[A-Z]\\w+\\b")
 static func of_files(project_files: PackedStringArray, features: Features) -> RefCounted:
 	var code := new()
 	code._features = features
-	features.look_at_renderers()
+	features.look_at_settings()
 	code._list(RUN_TIME)
 	for entry: Dictionary in ProjectSettings.get_global_class_list():
 		var path: String = entry["path"]

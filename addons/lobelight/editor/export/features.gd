@@ -5,6 +5,7 @@ extends RefCounted
 ## A feature that a script so much as names counts as reached, and so do those in the metadata
 ## [code]lobelight_features[/code] of a scene's root, an array of their names.
 
+const DiffuseSource := preload("../../runtime/light/diffuse_source.gd")
 const LobeEnvironment := preload("../../runtime/light/lobe_environment_3d.gd")
 const LightSettings := preload("../../runtime/light/light_settings.gd")
 const LobeProbe := preload("../../runtime/probes/lobe_probe_3d.gd")
@@ -35,6 +36,7 @@ const FOLDERS: Dictionary[String, String] = {
 	"detail": DETAIL,
 	"diffuse": DIFFUSE,
 	"fades": FADES,
+	"engine_light": OnDemand.ENGINE_LIGHT,
 	"filters": OnDemand.FILTERS,
 	"occlusion": OCCLUSION,
 	"msdf": MSDF,
@@ -56,6 +58,7 @@ const DEFINES: Dictionary[String, String] = {
 	MSDF: "LOBELIGHT_MSDF",
 	PARALLAX: "LOBELIGHT_PARALLAX",
 	OCCLUSION: "LOBELIGHT_OCCLUDED",
+	OnDemand.ENGINE_LIGHT: "LOBELIGHT_ENGINE",
 	OnDemand.PLACES: "LOBELIGHT_PLACED",
 	SHEEN: "LOBELIGHT_SHEEN",
 	TRIPLANAR: "LOBELIGHT_TRIPLANAR",
@@ -70,6 +73,8 @@ const _WORDS: Dictionary[String, String] = {
 	SHEEN: "sheen_\\w+",
 	FADES: "\\w+_fade_\\w+|refraction_\\w+",
 	LAMPS: "(rim|backlight|subsurf_scatter)_\\w+",
+	OnDemand.ENGINE_LIGHT:
+	"diffuse_light|sdfgi_enabled|ssao_enabled|ssil_enabled|VoxelGI|LightmapGI",
 	OnDemand.FILTERS: "filter",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
 	GLTF: "LobeGLTFExtension",
@@ -134,13 +139,15 @@ func _init() -> void:
 func add_all(file: String) -> void:
 	for feature in _OF_MATERIALS:
 		add(feature, file)
+	add(OnDemand.ENGINE_LIGHT, file)
 	add(OnDemand.FILTERS, file)
 	add(OnDemand.SKIES, file)
 	resizing = "%s may change environments" % file
 
 
-## What every renderer needs that the project's settings choose for some system.
-func look_at_renderers() -> void:
+## What every renderer needs that the project's settings choose for some system, and what else they
+## ask for.
+func look_at_settings() -> void:
 	for property in ProjectSettings.get_property_list():
 		var setting: String = property["name"]
 		if setting.begins_with(_METHOD):
@@ -148,6 +155,8 @@ func look_at_renderers() -> void:
 			add(OnDemand.COMPATIBILITY if is_compatibility else OnDemand.RENDERING_DEVICE, setting)
 	if ProjectSettings.get_setting(_FALLBACK, true):
 		add(OnDemand.COMPATIBILITY, _FALLBACK)
+	if ProjectSettings.get_setting(DiffuseSource.SETTING, 0) == DiffuseSource.Source.ENGINE:
+		add(OnDemand.ENGINE_LIGHT, DiffuseSource.SETTING)
 
 
 func look_at_material(file: String, material: LobeMaterial3D) -> void:
@@ -175,6 +184,18 @@ func look_at_material(file: String, material: LobeMaterial3D) -> void:
 		add(FADES, file)
 	if material.has_lamp_effects():
 		add(LAMPS, file)
+	if material.diffuse_light == LobeMaterial3D.DiffuseLight.ENGINE:
+		add(OnDemand.ENGINE_LIGHT, file)
+
+
+## What of the engine may light or occlude materials.
+func look_at_resource(file: String, resource: Resource) -> void:
+	var acts := resource is LightmapGIData or resource is VoxelGIData
+	var environment := resource as Environment
+	if environment != null:
+		acts = environment.sdfgi_enabled or environment.ssao_enabled or environment.ssil_enabled
+	if acts:
+		add(OnDemand.ENGINE_LIGHT, file)
 
 
 ## A line of a script, or the path of an animation's track.

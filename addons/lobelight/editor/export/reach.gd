@@ -138,6 +138,7 @@ func _look_at(file: String, value: Variant) -> void:
 	elif resource is Animation:
 		_look_at_animation(file, resource)
 	else:
+		features.look_at_resource(file, resource)
 		if resource is PanoramaSkyMaterial:
 			lobes.add_panorama((resource as PanoramaSkyMaterial).panorama)
 		for property in resource.get_property_list():

@@ -7,6 +7,7 @@ extends Object
 ## another, the shader finds the light of each pixel (probes/placed_lights.gd). Materials are known
 ## by their RIDs; nothing is kept alive.
 
+const DiffuseSource := preload("diffuse_source.gd")
 const LightWorld := preload("light_world.gd")
 const NeutralLight := preload("neutral_light.gd")
 const OnDemand := preload("../on_demand.gd")
@@ -54,6 +55,22 @@ static func get_defines(material: RID) -> PackedStringArray:
 	return defines
 
 
+## The same for where the diffuse light comes from, of a material that has any.
+static func get_diffuse_defines(material: RID) -> PackedStringArray:
+	_mutex.lock()
+	var defines := DiffuseSource.get_defines(material)
+	_mutex.unlock()
+	return defines
+
+
+static func set_diffuse_source(material: RID, source: DiffuseSource.Source) -> void:
+	_mutex.lock()
+	DiffuseSource.choose(material, source)
+	if _materials.has(material):
+		_ask_for_variant(material)
+	_mutex.unlock()
+
+
 ## From now on the material shows the light of where it is. [param other_variant] is called when
 ## [method get_defines] has changed.
 static func add_material(material: RID, other_variant: Callable) -> void:
@@ -69,6 +86,7 @@ static func remove_material(material: RID) -> void:
 	_materials.erase(material)
 	_own.erase(material)
 	_own_lists.erase(material)
+	DiffuseSource.forget_material(material)
 	if _materials.is_empty():
 		_neutral = null
 		if _worlds.is_empty():
@@ -111,6 +129,7 @@ static func expect(world: World3D, owner: int) -> void:
 static func offer(world: World3D, owner: int, light: LobeLight, seconds := 0.0) -> void:
 	if seconds > 0.0 or _is_other_world_lit(world):
 		_load_places()
+	DiffuseSource.load_watch()
 	_mutex.lock()
 	_watch()
 	_get_world(world).offer(owner, light, seconds)
@@ -121,6 +140,7 @@ static func offer(world: World3D, owner: int, light: LobeLight, seconds := 0.0) 
 ## Gives a probe's light to a world, or replaces it.
 static func add_probe(world: World3D, owner: int, light: LobeLight) -> void:
 	_load_places()
+	DiffuseSource.load_watch()
 	_mutex.lock()
 	_watch()
 	_get_world(world).probes[owner] = light
@@ -254,6 +274,7 @@ static func _forget() -> void:
 	_shown = null
 	_end_places()
 	_placed_script = null
+	DiffuseSource.forget()
 	if _is_aging:
 		RenderingServer.frame_post_draw.disconnect(_age)
 	_is_aging = false
@@ -299,10 +320,18 @@ static func _refresh() -> void:
 	if _placed == null or _placed != before or _placed.has_other_textures():
 		for material: RID in _materials:
 			_apply(material)
-	if has_changed:
-		for material: RID in _materials:
-			_ask_for_variant(material)
+	if _follow_engine(lit) or has_changed:
+		_ask_for_variants()
 	_start_aging()
+
+
+# What the engine has in the lit worlds counts. Whether it is something else than before.
+static func _follow_engine(lit: Array[LightWorld]) -> bool:
+	var worlds: Array[World3D] = []
+	for world in lit:
+		if world.get_world() != null:
+			worlds.append(world.get_world())
+	return DiffuseSource.follow(worlds, _ask_for_variants)
 
 
 static func _end_places() -> void:
@@ -335,6 +364,13 @@ static func _apply(material: RID) -> void:
 
 static func _has_own_place(light: LobeLight) -> bool:
 	return light.has_box() and _placed_script != null
+
+
+static func _ask_for_variants() -> void:
+	_mutex.lock()
+	for material: RID in _materials:
+		_ask_for_variant(material)
+	_mutex.unlock()
 
 
 static func _ask_for_variant(material: RID) -> void:

@@ -43,6 +43,11 @@ func get_light() -> LobeLight:
 	return environments.values().back() if not environments.is_empty() else _kept
 
 
+## The world; null if it has gone.
+func get_world() -> World3D:
+	return _world.get_ref()
+
+
 ## Whether there is anything to show.
 func is_lit() -> bool:
 	return get_light() != null or not probes.is_empty()

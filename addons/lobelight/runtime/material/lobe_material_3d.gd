@@ -15,12 +15,23 @@ extends LobeBaseMaterial3D
 ## microfacets, is compensated for it, and the diffuse colour gets what is not reflected.
 ## [br][br]
 ## What the engine makes of the material:
-## [br]- Its own lights, their shadows, and fog work as on any material. Its lights are not
-## compensated for lost energy, and in Compatibility, lights with shadows are added in sRGB.
-## [br]- Its ambient light, reflections of the sky, [ReflectionProbe]s, lightmaps, [VoxelGI] and
-## SDFGI do not light the material: the environment does, once. When they ask what the material
-## sends out, it answers with its [member emission] alone, not with what it reflects. A [VoxelGI]
-## takes static objects with any [ShaderMaterial] for white.
+## [br]- Its own lights, their shadows, and fog work as on any material. In Compatibility, lights
+## with shadows are added in sRGB.
+## [br]- Diffuse light comes from the environment or from the engine, see [member diffuse_light]: by
+## default from the engine where it has lightmaps, [VoxelGI] or SDFGI, so that the surface is as
+## bright as what is beside it. Then the engine's ambient light, its occlusion and its indirect
+## light act as on a [StandardMaterial3D], without regard to what the lobes reflect already.
+## Reflections are the environment's in either case: those of the sky, of [ReflectionProbe]s, of GI
+## and of the screen do not show.
+## [br]- SSAO and SSIL act on diffuse light in Forward+, wherever it comes from; with physical light
+## units only on the engine's. While they act on the environment's, lightmaps add to it, and
+## [ReflectionProbe]s with an ambient light, [VoxelGI] and SDFGI replace it. In Compatibility SSAO
+## darkens the whole picture.
+## [br]- Where the engine has a hand in diffuse light, its lamps' reflections are compensated for
+## the energy that lobes lose, and lamps have no size. Otherwise they are not compensated.
+## [br]- When lightmaps and GI ask what the material sends out, it answers with its
+## [member emission] alone, not with what it reflects. A [VoxelGI] takes static objects with any [ShaderMaterial] for
+## white.
 ## [br]- [Decal]s change what the engine's lights show, and add their emission; the environment's
 ## light does not know of them.
 ## [br]- Compatibility, as of Godot 4.6, gives skinned meshes one and the same tangent everywhere:
@@ -30,7 +41,22 @@ extends LobeBaseMaterial3D
 ## used is not in it. It is not stored with the material, and neither [member ShaderMaterial.shader]
 ## nor shader parameters are to be set on it.
 
+## Where the diffuse light of a [LobeMaterial3D] comes from.
+enum DiffuseLight {
+	## What the project setting [code]lobelight/materials/diffuse_light[/code] says. With its default,
+	## Automatic: the engine where a world that a [LobeEnvironment3D] or a [LobeProbe3D] lights has
+	## engine light of its own, that is SDFGI, a visible [VoxelGI] or [LightmapGI] with data;
+	## otherwise the environment. It counts for all materials, as these belong to no world.
+	AUTOMATIC,
+	## The environment and the probes around each pixel light the surface, as they do its reflections.
+	ENVIRONMENT,
+	## Ambient light, lightmaps, [VoxelGI] and SDFGI light the surface as they do any
+	## [StandardMaterial3D]; the environment's light is reflected only.
+	ENGINE,
+}
+
 const Conversion := preload("conversion.gd")
+const DiffuseSource := preload("../light/diffuse_source.gd")
 const LightRegistry := preload("../light/light_registry.gd")
 const MaterialParameters := preload("material_parameters.gd")
 const MaterialShader := preload("material_shader.gd")
@@ -78,6 +104,15 @@ static var _variants_mutex := Mutex.new()
 	set(value):
 		light = value
 		LightRegistry.set_own_light(_rid, light)
+		emit_changed()
+
+## Where diffuse light comes from. Metals have none. Materials with a rim, a backlight, light below
+## the surface, shading per vertex, or diffuse and specular modes other than the default ones take
+## it from the environment always, and SSAO does not act on it.
+@export var diffuse_light := DiffuseLight.AUTOMATIC:
+	set(value):
+		diffuse_light = value
+		LightRegistry.set_diffuse_source(_rid, int(value) as DiffuseSource.Source)
 		emit_changed()
 
 # Kept, because the object is no longer whole when it is told of its end.

@@ -60,7 +60,7 @@ static func count_fetches(
 		return {"environment": 0, "table": 0, "samplers": 0}
 	if "SECOND_TEXELS" in defines or ("WIDTHS_PER_PIXEL" in defines and not choice.is_isotropic):
 		table *= 2
-	if "DIELECTRIC" in defines:
+	if "DIELECTRIC" in defines and "ENGINE_DIFFUSE" not in defines:
 		environment += DIFFUSE_FETCHES
 	if choice.coat != null:
 		environment += choice.coat.lobe_count
@@ -88,7 +88,10 @@ static func _count_placed_samplers(defines: PackedStringArray) -> int:
 
 static func _render_modes(surface: LobeBaseMaterial3D) -> PackedStringArray:
 	var modes: PackedStringArray = []
-	if surface.disable_ambient_light or not surface.shadow_to_opacity:
+	if _get_diffuse_defines(surface):
+		# It has nothing to occlude: what the engine would reflect is none.
+		modes.append("specular_occlusion_disabled")
+	elif surface.disable_ambient_light or not surface.shadow_to_opacity:
 		modes.append("ambient_light_disabled")
 	# What is the engine's default is left out.
 	if surface.is_dielectric():
@@ -168,6 +171,7 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		defines.append("DIELECTRIC")
 		if surface.metallic > 0.0:
 			defines.append("METALLIC")
+		defines.append_array(_get_diffuse_defines(surface))
 	if surface.is_lit_by_surroundings():
 		defines.append_array(LightRegistry.get_defines(surface.get_rid()))
 	else:
@@ -199,6 +203,21 @@ static func _is_limited_by_engine() -> bool:
 	if RenderingServer.get_current_rendering_method() == "gl_compatibility":
 		return false
 	return ProjectSettings.get_setting(_LIMITER, true)
+
+
+# Whether and how the engine has a hand in the diffuse light. Not where its lamps are to be told of
+# what a shader of one's own for lamps would take from them.
+static func _get_diffuse_defines(surface: LobeBaseMaterial3D) -> PackedStringArray:
+	if not surface.is_dielectric() or not surface.is_lit_by_surroundings():
+		return []
+	var is_plain := (
+		surface.shading_mode == BaseMaterial3D.SHADING_MODE_PER_PIXEL
+		and surface.diffuse_mode == BaseMaterial3D.DIFFUSE_BURLEY
+		and surface.specular_mode == BaseMaterial3D.SPECULAR_SCHLICK_GGX
+		and not surface.shadow_to_opacity
+		and not surface.has_lamp_effects()
+	)
+	return LightRegistry.get_diffuse_defines(surface.get_rid()) if is_plain else []
 
 
 static func _add_alpha(surface: LobeBaseMaterial3D, defines: PackedStringArray) -> void:
