@@ -25,7 +25,7 @@ const FEATURES: PackedStringArray = [
 	"gltf/lobe_gltf_extension.gd",
 	"fades/fades.gdshaderinc",
 	"lamps/lamps.gdshaderinc",
-	"engine_light/engine_light.gdshaderinc",
+	"engine_light/engine_watch.gd",
 ]
 
 ## A scene, and which of FEATURES it needs.

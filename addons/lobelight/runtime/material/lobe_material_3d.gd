@@ -30,8 +30,8 @@ extends LobeBaseMaterial3D
 ## [br]- Where the engine has a hand in diffuse light, its lamps' reflections are compensated for
 ## the energy that lobes lose, and lamps have no size. Otherwise they are not compensated.
 ## [br]- When lightmaps and GI ask what the material sends out, it answers with its
-## [member emission] alone, not with what it reflects. A [VoxelGI] takes static objects with any [ShaderMaterial] for
-## white.
+## [member emission] alone, not with what it reflects. A [VoxelGI] takes static objects with any
+## [ShaderMaterial] for white.
 ## [br]- [Decal]s change what the engine's lights show, and add their emission; the environment's
 ## light does not know of them.
 ## [br]- Compatibility, as of Godot 4.6, gives skinned meshes one and the same tangent everywhere:
