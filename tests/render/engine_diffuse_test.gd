@@ -264,6 +264,7 @@ func _standard(kind: String) -> StandardMaterial3D:
 
 func _made_from(godots: StandardMaterial3D, source: LobeMaterial3D.DiffuseLight) -> LobeMaterial3D:
 	var made := LobeMaterial3D.from_standard(godots)
+	made.disable_ambient_light = false
 	made.diffuse_light = source
 	return made
 
