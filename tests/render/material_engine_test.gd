@@ -100,6 +100,7 @@ func test_ambient_light_is_not_added() -> void:
 	await _light(Kit.constant(0.5))
 	var material := _material()
 	material.metallic = 0.0
+	material.diffuse_light = LobeMaterial3D.DiffuseLight.ENVIRONMENT
 	var quad := SphereImpostor.make_quad(material)
 	_view.add_child(quad)
 	var plain := await _middle()

@@ -74,7 +74,7 @@ const _WORDS: Dictionary[String, String] = {
 	FADES: "\\w+_fade_\\w+|refraction_\\w+",
 	LAMPS: "(rim|backlight|subsurf_scatter)_\\w+",
 	OnDemand.ENGINE_LIGHT:
-	"diffuse_light|sdfgi_enabled|ssao_enabled|ssil_enabled|VoxelGI|LightmapGI",
+	"diffuse_light|sdfgi_enabled|ssao_enabled|ssil_enabled|VoxelGI|LightmapGI|ReflectionProbe",
 	OnDemand.FILTERS: "filter",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
 	GLTF: "LobeGLTFExtension",
@@ -208,8 +208,10 @@ func read_line(file: String, line: String) -> void:
 
 
 ## A node of a scene, by the properties that are not at their defaults.
-func look_at_node(file: String, properties: Dictionary, is_instance: bool) -> void:
-	if is_instance:
+func look_at_node(file: String, properties: Dictionary, type: StringName) -> void:
+	if type == &"ReflectionProbe":
+		add(OnDemand.ENGINE_LIGHT, file)
+	if type.is_empty():
 		# What it is an instance of is seen elsewhere; here something of it is changed.
 		read_line(file, ":" + " :".join(PackedStringArray(properties.keys())))
 		return

@@ -103,7 +103,7 @@ func _look_at_scene(file: String, scene: PackedScene) -> void:
 				_declare(value)
 			else:
 				_look_at(file, value)
-		features.look_at_node(file, properties, state.get_node_type(node).is_empty())
+		features.look_at_node(file, properties, state.get_node_type(node))
 
 
 func _declare(ranges: Dictionary) -> void:

@@ -12,9 +12,11 @@ const DiffuseSource := preload("../light/diffuse_source.gd")
 const _INCLUDE := preload("engine_light.gdshaderinc")
 # In seconds.
 const _INTERVAL := 0.5
+const _KINDS: Array[String] = ["Camera3D", "LightmapGI", "ReflectionProbe", "VoxelGI"]
 const _UNITS := "rendering/lights_and_shadows/use_physical_light_units"
 
-## Whether a visible [LightmapGI] or [VoxelGI] has data, or an environment has SDFGI.
+## Whether a visible [LightmapGI] or [VoxelGI] has data, an environment has SDFGI, or, where the
+## addon has no probes, a visible [ReflectionProbe] has ambient light.
 var has_global_illumination := false
 ## Whether an environment has SSAO or SSIL that needs the diffuse light apart. Compatibility's SSAO
 ## takes the whole picture.
@@ -23,6 +25,8 @@ var has_screen_occlusion := false
 var _on_change: Callable
 # Ids: a world that is held would be taken for one that is still shown.
 var _worlds: Array[int] = []
+# Those of them in which diffuse light comes from probes of the addon, if not from the engine.
+var _with_probes: Array[int] = []
 # The ids of cameras, and of nodes with global illumination.
 var _nodes: Array[int] = []
 var _tree: SceneTree
@@ -39,9 +43,12 @@ func has_any() -> bool:
 	return has_global_illumination or has_screen_occlusion
 
 
-## Counts what these worlds have from now on. Whether it is something else than before.
-func follow(worlds: Array[World3D]) -> bool:
+## Counts what these worlds have from now on, some of them [param with_probes]. Whether it is
+## something else than before.
+func follow(worlds: Array[World3D], with_probes: Array[World3D]) -> bool:
 	_leave_worlds()
+	for world in with_probes:
+		_with_probes.append(world.get_instance_id())
 	for world in worlds:
 		world.changed.connect(_queue_look)
 		_worlds.append(world.get_instance_id())
@@ -66,6 +73,7 @@ func _leave_worlds() -> void:
 		if world != null:
 			world.changed.disconnect(_queue_look)
 	_worlds.clear()
+	_with_probes.clear()
 
 
 func _begin() -> void:
@@ -73,7 +81,7 @@ func _begin() -> void:
 	if _tree == null:
 		return
 	_setting = ProjectSettings.get_setting(DiffuseSource.SETTING, 0)
-	for kind: String in ["Camera3D", "LightmapGI", "VoxelGI"]:
+	for kind: String in _KINDS:
 		for node in _tree.root.find_children("*", kind, true, false):
 			_nodes.append(node.get_instance_id())
 	_tree.node_added.connect(_on_node_added)
@@ -91,7 +99,7 @@ func _on_timeout() -> void:
 
 
 func _on_node_added(node: Node) -> void:
-	if node is Camera3D or node is LightmapGI or node is VoxelGI:
+	if _KINDS.any(func(kind: String) -> bool: return node.is_class(kind)):
 		if node.get_instance_id() not in _nodes:
 			_nodes.append(node.get_instance_id())
 		_queue_look()
@@ -142,8 +150,18 @@ func _look_at_node(node: Node3D) -> void:
 	elif node.is_visible_in_tree():
 		if node is LightmapGI:
 			has_global_illumination = has_global_illumination or node.light_data != null
+		elif node is ReflectionProbe:
+			has_global_illumination = has_global_illumination or _lights(node)
 		elif _is_forward_plus():
 			has_global_illumination = has_global_illumination or node.data != null
+
+
+# In Compatibility a shader's ambient light counts instead of theirs.
+func _lights(probe: ReflectionProbe) -> bool:
+	if RenderingServer.get_current_rendering_method() == "gl_compatibility":
+		return false
+	var is_alone := probe.get_world_3d().get_instance_id() not in _with_probes
+	return is_alone and probe.ambient_mode != ReflectionProbe.AMBIENT_DISABLED
 
 
 func _look_at_environment(environment: Environment) -> void:

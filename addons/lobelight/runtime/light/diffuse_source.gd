@@ -54,16 +54,19 @@ static func load_watch() -> void:
 		_watch_script = OnDemand.fetch(_WATCH, OnDemand.ENGINE_LIGHT) as GDScript
 
 
-## These worlds are lit: what the engine has in them counts from now on. Whether that is something
-## else than before; [param on_change] is called when it becomes so later.
-static func follow(worlds: Array[World3D], on_change: Callable) -> bool:
+## These worlds are lit, some of them [param with_probes]: what the engine has in them counts from
+## now on. Whether that is something else than before; [param on_change] is called when it becomes
+## so later.
+static func follow(
+	worlds: Array[World3D], with_probes: Array[World3D], on_change: Callable
+) -> bool:
 	if worlds.is_empty() or _watch_script == null:
 		var had_any: bool = _watch != null and _watch.has_any()
 		end()
 		return had_any
 	if _watch == null:
 		_watch = _watch_script.new(on_change)
-	return _watch.follow(worlds)
+	return _watch.follow(worlds, with_probes)
 
 
 static func end() -> void:

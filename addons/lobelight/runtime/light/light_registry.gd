@@ -328,10 +328,13 @@ static func _refresh() -> void:
 # What the engine has in the lit worlds counts. Whether it is something else than before.
 static func _follow_engine(lit: Array[LightWorld]) -> bool:
 	var worlds: Array[World3D] = []
+	var with_probes: Array[World3D] = []
 	for world in lit:
 		if world.get_world() != null:
 			worlds.append(world.get_world())
-	return DiffuseSource.follow(worlds, _ask_for_variants)
+			if not world.probes.is_empty():
+				with_probes.append(world.get_world())
+	return DiffuseSource.follow(worlds, with_probes, _ask_for_variants)
 
 
 static func _end_places() -> void:

@@ -18,11 +18,11 @@ extends LobeBaseMaterial3D
 ## [br]- Its own lights, their shadows, and fog work as on any material. In Compatibility, lights
 ## with shadows are added in sRGB.
 ## [br]- Diffuse light comes from the environment or from the engine, see [member diffuse_light]: by
-## default from the engine where it has lightmaps, [VoxelGI] or SDFGI, so that the surface is as
-## bright as what is beside it. Then the engine's ambient light, its occlusion and its indirect
-## light act as on a [StandardMaterial3D], without regard to what the lobes reflect already.
-## Reflections are the environment's in either case: those of the sky, of [ReflectionProbe]s, of GI
-## and of the screen do not show.
+## default from the engine where it has lightmaps, [VoxelGI], SDFGI or, without [LobeProbe3D]s, a
+## [ReflectionProbe], so that the surface is as bright as what is beside it. Then the engine's
+## ambient light, its occlusion and its indirect light act as on a [StandardMaterial3D], without
+## regard to what the lobes reflect already. Reflections are the environment's in either case: those
+## of the sky, of [ReflectionProbe]s, of GI and of the screen do not show.
 ## [br]- SSAO and SSIL act on diffuse light in Forward+, wherever it comes from; with physical light
 ## units only on the engine's. While they act on the environment's, lightmaps add to it, and
 ## [ReflectionProbe]s with an ambient light, [VoxelGI] and SDFGI replace it. In Compatibility SSAO
@@ -32,8 +32,8 @@ extends LobeBaseMaterial3D
 ## [br]- When lightmaps and GI ask what the material sends out, it answers with its
 ## [member emission] alone, not with what it reflects. A [VoxelGI] takes static objects with any
 ## [ShaderMaterial] for white.
-## [br]- [Decal]s change what the engine's lights show, and add their emission; the environment's
-## light does not know of them.
+## [br]- [Decal]s change what the engine's lights show, and add their emission. Where the engine has
+## a hand in diffuse light, they colour it. Lobes do not know of them.
 ## [br]- Compatibility, as of Godot 4.6, gives skinned meshes one and the same tangent everywhere:
 ## anisotropy, normal and bent normal maps need another renderer there.
 ## [br][br]
@@ -45,8 +45,10 @@ extends LobeBaseMaterial3D
 enum DiffuseLight {
 	## What the project setting [code]lobelight/materials/diffuse_light[/code] says. With its default,
 	## Automatic: the engine where a world that a [LobeEnvironment3D] or a [LobeProbe3D] lights has
-	## engine light of its own, that is SDFGI, a visible [VoxelGI] or [LightmapGI] with data;
-	## otherwise the environment. It counts for all materials, as these belong to no world.
+	## engine light of its own, that is SDFGI, a visible [VoxelGI] or [LightmapGI] with data, or, where
+	## there is no [LobeProbe3D], a visible [ReflectionProbe] with ambient light (not in
+	## Compatibility); otherwise the environment. It counts for all materials, as these belong to no
+	## world.
 	AUTOMATIC,
 	## The environment and the probes around each pixel light the surface, as they do its reflections.
 	ENVIRONMENT,
