@@ -63,6 +63,8 @@ func end() -> void:
 	if _tree != null:
 		_tree.node_added.disconnect(_on_node_added)
 		_timer.timeout.disconnect(_on_timeout)
+		# So that the tree lets go of it.
+		_timer.time_left = 0.0
 	_tree = null
 	_timer = null
 
