@@ -10,29 +10,6 @@ const Widths := preload("../table/widths.gd")
 const _OF_ALL_MATERIALS: Array[StringName] = [&"render_priority", &"next_pass", &"resource_name"]
 # Of no meaning, and refused by the engine, without physical light units.
 const _OF_PHYSICAL_UNITS := &"emission_intensity"
-# What turns a group of properties off, and what these begin with.
-const _SWITCHES: Dictionary[String, Array] = {
-	"backlight_enabled": ["backlight"],
-	"bent_normal_enabled": ["bent_normal_"],
-	"billboard_mode": ["billboard_", "particles_anim_"],
-	"detail_enabled": ["detail_"],
-	"distance_fade_mode": ["distance_fade_"],
-	"emission_enabled": ["emission"],
-	"grow": ["grow_"],
-	"heightmap_enabled": ["heightmap_"],
-	"albedo_texture_msdf": ["msdf_"],
-	"proximity_fade_enabled": ["proximity_fade_"],
-	"refraction_enabled": ["refraction_"],
-	"rim_enabled": ["rim"],
-	"stencil_mode": ["stencil_"],
-	"subsurf_scatter_enabled": ["subsurf_scatter_"],
-	"use_fov_override": ["fov_override"],
-	"use_point_size": ["point_size"],
-	"use_z_clip_scale": ["z_clip_scale"],
-	"uv1_triplanar": ["uv1_triplanar_", "uv1_world_"],
-	"uv2_triplanar": ["uv2_triplanar_", "uv2_world_"],
-}
-
 # Properties of both BaseMaterial3D and LobeBaseMaterial3D.
 static var _shared: Array[StringName] = []
 
@@ -77,17 +54,9 @@ func get_losses(source: BaseMaterial3D) -> PackedStringArray:
 			or name == _OF_PHYSICAL_UNITS
 		):
 			continue
-		if source.get(name) != usual.get(name) and not _is_off(source, name):
+		if source.get(name) != usual.get(name):
 			losses.append(name)
 	return losses
-
-
-static func _is_off(source: BaseMaterial3D, name: String) -> bool:
-	for switch in _SWITCHES:
-		for beginning: String in _SWITCHES[switch]:
-			if name != switch and name.begins_with(beginning):
-				return not source.get(switch)
-	return false
 
 
 static func _copy(source: Material, made: Material) -> void:
