@@ -36,6 +36,7 @@ CHANGES = {
     "lobe_table.gdshaderinc": ("0.1141528", "0.1151528", ["position_16x8_lobes_1"]),
     "material.gdshaderinc": ("max(1.0 - share, 0.0)", "max(0.99 - share, 0.0)", ["material_everything_levels"]),
     "material_inputs.gdshaderinc": ("texel * 2.0 - 1.0", "texel * 2.0 - 0.99", ["material_with_maps_directions"]),
+    "normal_variance.gdshaderinc": ("texels / 16.0", "texels / 16.1", ["antialiasing"]),
     "occlusion.gdshaderinc": ("2.0 / 3.0 - occlusion", "2.1 / 3.0 - occlusion", ["occlusion"]),
     "panorama.gdshaderinc": ("0.156583", "0.157583", ["panorama_1"]),
     "placed_light.gdshaderinc": ("along = p * quotient", "along = 0.999 * p * quotient", ["placed_0"]),
@@ -51,10 +52,11 @@ CHANGES = {
     "widths.gdshaderinc": ("1.0 - 0.9 * anisotropy", "1.0 - 0.91 * anisotropy", ["widths_9_anisotropic"]),
 }
 
-# The engine's formulas: tests/render/vocabulary_coordinates_test.gd draws them beside its own material.
+# The engine's formulas, drawn beside its own material: tests/render/vocabulary_coordinates_test.gd and engine_diffuse_test.gd.
 BESIDE_THE_ENGINE = {
     "coordinates.gdshaderinc",
     "detail.gdshaderinc",
+    "engine_light.gdshaderinc",
     "msdf.gdshaderinc",
     "parallax.gdshaderinc",
     "vertex.gdshaderinc",

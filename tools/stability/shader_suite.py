@@ -7,6 +7,7 @@ import mediump
 import numpy as np
 import probe_textures
 import projects
+import shader_antialiasing
 import shader_fades
 import shader_frames
 import shader_light
@@ -67,6 +68,7 @@ def make(quick, records):
         *shader_values.probes(quick),
         *shader_points.probes(quick),
         *shader_fades.probes(),
+        *shader_antialiasing.probes(),
         *shader_frames.probes(quick),
         *shader_widths.probes(quick),
         *shader_planes.probes(quick),
