@@ -86,7 +86,7 @@ bake_refuses "a target that is no number" "target" \
 refuses "bake-tables, an unknown BRDF" "phong" bake-tables --brdf phong --out .
 refuses "bake-tables, no lobe" "lobes" bake-tables --lobes 0 --out .
 refuses "bake-tables, one width" "widths" bake-tables --widths 1 --out .
-refuses "bake-tables, one azimuth" "azimuths" bake-tables --views 4,1 --out .
+refuses "bake-tables, no azimuth" "azimuth" bake-tables --views 4,0 --out .
 refuses "bake-tables, a missing folder" "missing" bake-tables --out missing
 refuses "bake-tables, nothing to check" "ward_8.res" bake-tables --check --out .
 

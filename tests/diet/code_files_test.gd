@@ -186,7 +186,9 @@ func test_folders_of_features_stay_or_go_whole() -> void:
 			for folder: String in CodeFiles.Features.FOLDERS:
 				var sizes := _sizes(code, RUN_TIME + folder + "/")
 				assert_int(sizes.size()).append_failure_message(folder).is_greater(0)
-				assert_int(sizes.count(0)).is_in([0, sizes.size()])
+				# Of includes that scripts preload an empty line goes along.
+				var kept := sizes.filter(func(size: int) -> bool: return size > 1)
+				assert_int(kept.size()).append_failure_message(folder).is_in([0, sizes.size()])
 			# Not a byte without probes.
 			var has_probes := _sizes(code, RUN_TIME + "probes/").count(0) == 0
 			assert_bool(has_probes).is_equal(not script.is_empty())
