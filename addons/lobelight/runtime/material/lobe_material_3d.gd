@@ -162,8 +162,8 @@ static func get_losses_from(source: BaseMaterial3D) -> PackedStringArray:
 
 
 ## A [member LobeBaseMaterial3D.normal_variance_texture] for a normal map, from its image. It takes
-## about a second for a million texels, and may be called from a thread. [code]null[/code], and an
-## error, if there is no image.
+## a while for large maps, and may be called from a thread. [code]null[/code], and an error, if
+## there is no image.
 static func bake_normal_variance(normals: Image) -> ImageTexture:
 	var baker := OnDemand.fetch(_NORMAL_VARIANCE, OnDemand.ANTIALIASING) as GDScript
 	return baker.call(&"bake", normals) as ImageTexture if baker != null else null
