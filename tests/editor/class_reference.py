@@ -15,6 +15,7 @@ CLASSES = {
     "LobeGLTFExtension",
     "LobeImageFile",
     "LobeLight",
+    "LobeLightFilter",
     "LobeMaterial3D",
     "LobeProbe3D",
     "LobeReference",

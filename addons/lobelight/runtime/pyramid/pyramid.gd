@@ -81,8 +81,12 @@ static func find_loss(used_filter: Filter) -> String:
 ## four texels along one of the panorama's, so that the sharpest lobes, no wider than these, are
 ## looked up between blurred levels.
 static func automatic_size(panorama: Texture2D) -> int:
-	var wanted := nearest_po2(panorama.get_width())
-	return clampi(wanted, MIN_SIZE, MAX_AUTOMATIC_SIZE)
+	return automatic_size_of(panorama.get_width())
+
+
+## The same for a panorama's width in texels.
+static func automatic_size_of(width: int) -> int:
+	return clampi(nearest_po2(width), MIN_SIZE, MAX_AUTOMATIC_SIZE)
 
 
 ## What level 0 is blurred by, as [constant LEVEL_VARIANCES]. Where the panorama's texels are no
@@ -90,9 +94,22 @@ static func automatic_size(panorama: Texture2D) -> int:
 ## by twenty times the variance of a sharp level 0, and narrow lobes, which are looked up between
 ## the two, would suffer. Finer panoramas stay as sharp as the cube can show them.
 static func base_variance(panorama: Texture2D, face_size: int, used_filter: Filter) -> float:
-	if is_round(used_filter) and panorama.get_width() <= 2 * face_size:
+	return base_variance_of(panorama.get_width(), face_size, used_filter)
+
+
+## The same for a panorama's width in texels.
+static func base_variance_of(width: int, face_size: int, used_filter: Filter) -> float:
+	if is_round(used_filter) and width <= 2 * face_size:
 		return _BASE_SHARE * LEVEL_VARIANCES[used_filter]
 	return 0.0
+
+
+## Samples along the side of a texel of level 0, or along the diameter of the kernel that it is
+## blurred with.
+static func count_samples(width: int, face_size: int, used_filter: Filter) -> int:
+	if base_variance_of(width, face_size, used_filter) > 0.0:
+		return _KERNEL_SAMPLES
+	return clampi(ceili(width / (2.0 * face_size)), 1, _MAX_SAMPLES)
 
 
 ## Makes level 0 from a panorama; faces will have [param face_size] texels a side, a power of two.
@@ -103,14 +120,13 @@ func set_up_panorama(
 ) -> void:
 	_panorama = panorama
 	level_0_variance = base_variance(panorama, face_size, used_filter)
-	var samples := clampi(ceili(panorama.get_width() / (2.0 * face_size)), 1, _MAX_SAMPLES)
 	var format := RenderingServer.texture_get_format(panorama.get_rid())
 	var parameters: Dictionary[StringName, Variant] = {
 		&"panorama": panorama.get_rid(),
 		&"panorama_is_srgb": format not in LINEAR_FORMATS,
 		&"panorama_as_sky": as_sky,
 		&"face_size": face_size,
-		&"samples": samples if level_0_variance == 0.0 else _KERNEL_SAMPLES,
+		&"samples": count_samples(panorama.get_width(), face_size, used_filter),
 		&"kernel_variance": level_0_variance,
 		&"shrinking_variance": _TENT_VARIANCE,
 		&"is_gaussian": used_filter == Filter.GAUSSIAN,
