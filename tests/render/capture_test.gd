@@ -228,7 +228,7 @@ func _settle_lobes() -> void:
 func _mean() -> float:
 	var sum := 0.0
 	var count := 0
-	for face: Image in _environment._chain.cube.get_faces():
+	for face: Image in _environment._live.chain.cube.get_faces():
 		for y in face.get_height():
 			for x in face.get_width():
 				sum += face.get_pixel(x, y).g

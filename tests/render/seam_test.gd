@@ -80,7 +80,7 @@ func test_texels_of_a_gradient(filter: LobeEnvironment3D.Filter, _test_parameter
 	_environment.panorama = Kit.make_panorama(64, _linear)
 	_environment.filter = filter
 	await _environment.rebuild()
-	var faces: Array[Image] = _environment._chain.cube.get_faces()
+	var faces: Array[Image] = _environment._live.chain.cube.get_faces()
 	for level in 5:
 		var images := Kit.level_of(faces, level)
 		var size := images[0].get_width()

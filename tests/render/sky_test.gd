@@ -2,6 +2,7 @@ extends GdUnitTestSuite
 ## A mirror shows the sky that the camera sees: same colours, same places, for every kind of sky.
 
 const Kit := preload("support/render_kit.gd")
+const EnvironmentSource := preload("res://addons/lobelight/runtime/live/environment_source.gd")
 const SkyKit := preload("support/sky_kit.gd")
 const SIDE := 48
 # The kind of sky, its rotation, the energy of the background, whether the camera has a perspective.
@@ -98,13 +99,13 @@ func test_brightness_that_eight_bits_do_not_hold() -> void:
 func test_the_skys_own_panorama_is_taken_but_in_compatibility() -> void:
 	SkyKit.set_sky(_surroundings, "panorama")
 	await _environment.rebuild()
-	var kinds := LobeEnvironment3D.EnvironmentSource.Kind
+	var kinds := EnvironmentSource.Kind
 	var expected := kinds.SKY_VIEWS if LinearViewport.is_compatibility() else kinds.SKY_PANORAMA
-	assert_int(_environment._source.get_kind()).is_equal(expected)
+	assert_int(_environment._live.source.get_kind()).is_equal(expected)
 	# Fog is drawn by views.
 	_surroundings.fog_enabled = true
 	await _environment.rebuild()
-	assert_int(_environment._source.get_kind()).is_equal(kinds.SKY_VIEWS)
+	assert_int(_environment._live.source.get_kind()).is_equal(kinds.SKY_VIEWS)
 
 
 func test_other_backgrounds_are_black() -> void:

@@ -3,6 +3,7 @@ extends GdUnitTestSuite
 ## after 300 updates, or as many as LOBELIGHT_UPDATES says.
 
 const Kit := preload("support/render_kit.gd")
+const LiveLight := preload("res://addons/lobelight/runtime/live/live_light.gd")
 const SkyKit := preload("support/sky_kit.gd")
 const MODES := LobeEnvironment3D.UpdateMode
 const SIDE := 16
@@ -189,10 +190,10 @@ func test_slices_make_the_same_light() -> void:
 	SkyKit.set_sky(_surroundings, "shader")
 	_environment.filter = LobeEnvironment3D.Filter.DISC
 	await _environment.rebuild()
-	var whole: Array[Image] = _environment._chain.cube.get_faces().duplicate()
+	var whole: Array[Image] = _environment._live.chain.cube.get_faces().duplicate()
 	_environment.update_mode = MODES.TIME_SLICED
 	await _frames(2 * _environment.get_sliced_frames() + 2)
-	var sliced: Array[Image] = _environment._chain.cube.get_faces()
+	var sliced: Array[Image] = _environment._live.chain.cube.get_faces()
 	for face in 6:
 		assert_bool(whole[face].get_data() == sliced[face].get_data()).is_true()
 
@@ -213,7 +214,7 @@ func test_cost_is_measured_in_every_mode() -> void:
 		if mode == MODES.ONCE or mode == MODES.WHEN_CHANGED:
 			# It stays when the memory for drawing has been given back.
 			_rebuilt = 0
-			await _frames(LobeEnvironment3D._IDLE_FRAMES + 8)
+			await _frames(LiveLight._IDLE_FRAMES + 8)
 			assert_float(_environment.update_gpu_time).is_equal(time)
 			assert_int(_rebuilt).is_equal(0)
 
@@ -246,10 +247,10 @@ func test_other_sizes_leave_nothing_behind() -> void:
 func test_memory_for_drawing_is_given_back() -> void:
 	var material := _show_by_views()
 	await _frames(2)
-	assert_object(_environment._chain).is_not_null()
+	assert_object(_environment._live.chain).is_not_null()
 	var cube := _environment.get_cubemap()
-	await _frames(LobeEnvironment3D._IDLE_FRAMES + 3)
-	assert_object(_environment._chain).is_null()
+	await _frames(LiveLight._IDLE_FRAMES + 3)
+	assert_object(_environment._live.chain).is_null()
 	assert_object(_environment.get_cubemap()).is_same(cube)
 	_assert_colour(await _mirrored(), Color.RED)
 	# And taken again.

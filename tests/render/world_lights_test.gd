@@ -174,7 +174,7 @@ func test_captures_see_their_own_world() -> void:
 	capture.capture_cull_mask = 2
 	_views[1].add_child(capture)
 	assert_bool(await capture.rebuild()).is_true()
-	var back := capture._chain.cube.get_faces()[5].get_pixel(8, 8)
+	var back: Color = capture._live.chain.cube.get_faces()[5].get_pixel(8, 8)
 	assert_float(back.g).is_equal_approx(VALUES[1], 0.05)
 
 

@@ -42,6 +42,7 @@ KNOWS = {
     "occlusion": (),
     "compatibility": ("pyramid",),
     "rendering_device": ("pyramid",),
+    "live": ("light", "pyramid"),
     "skies": ("light", "pyramid"),
     "probes": ("light", "pyramid"),
     "conversion": ("material", "table"),

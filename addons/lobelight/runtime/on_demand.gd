@@ -5,6 +5,7 @@ extends Object
 
 ## What they are for.
 const SKIES := "light of skies and captures"
+const LIVE := "light that is drawn while the game runs"
 const FILTERS := "the filters Box and Binomial"
 const PLACES := "probes and lights of several worlds"
 const ANTIALIASING := "antialiasing of reflections"

@@ -42,6 +42,7 @@ const FOLDERS: Dictionary[String, String] = {
 	"msdf": MSDF,
 	"parallax": PARALLAX,
 	"lamps": LAMPS,
+	"live": OnDemand.LIVE,
 	"probes": OnDemand.PLACES,
 	"sheen": SHEEN,
 	"gltf": GLTF,
@@ -77,6 +78,7 @@ const _WORDS: Dictionary[String, String] = {
 	"diffuse_light|sdfgi_enabled|ssao_enabled|ssil_enabled|VoxelGI|LightmapGI|ReflectionProbe",
 	OnDemand.FILTERS: "filter",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
+	OnDemand.LIVE: "source|panorama|LobeEnvironment3D",
 	GLTF: "LobeGLTFExtension",
 	OnDemand.CONVERSION: "LobeGLTFExtension|from_standard|to_standard|get_losses_from",
 	OnDemand.PLACES: "LobeProbe3D|own_world_3d|world_3d|fade_time",
@@ -141,6 +143,7 @@ func add_all(file: String) -> void:
 		add(feature, file)
 	add(OnDemand.ENGINE_LIGHT, file)
 	add(OnDemand.FILTERS, file)
+	add(OnDemand.LIVE, file)
 	add(OnDemand.SKIES, file)
 	resizing = "%s may change environments" % file
 
@@ -229,9 +232,13 @@ func look_at_node(file: String, properties: Dictionary, type: StringName) -> voi
 		if properties.get("light") == null:
 			add(OnDemand.SKIES, file)
 		return
-	environments.append([file, properties])
 	if properties.get("fade_time", 0.0) > 0.0:
 		add(OnDemand.PLACES, file)
+	# Unless its light was baked.
+	if properties.get("light") != null:
+		return
+	add(OnDemand.LIVE, file)
+	environments.append([file, properties])
 	var source: int = properties.get("source", LobeEnvironment3D.Source.AUTOMATIC)
 	var has_panorama := properties.get("panorama") is Texture2D
 	source = LightSettings.decide(source as LightSettings.Source, has_panorama)

@@ -4,19 +4,24 @@ extends RefCounted
 
 ## As [enum LobeEnvironment3D.Source].
 enum Source { AUTOMATIC, SKY, PANORAMA, CAPTURE }
+## As [enum LobeEnvironment3D.UpdateMode].
+enum UpdateMode { ONCE, WHEN_CHANGED, EVERY_FRAME, TIME_SLICED }
 
-const Pyramid := preload("../pyramid/pyramid.gd")
 const ViewPlace := preload("view_place.gd")
 
 ## Whose world, viewport and place count.
 var node: Node3D
 var source := Source.AUTOMATIC
 var panorama: Texture2D
-var filter := Pyramid.Filter.DISC
+## As [enum LobeEnvironment3D.Filter].
+var filter := 3
 ## Texels along the side of a face; 0 for what suits the source.
 var size := 0
 var energy := 1.0
 var measure_cost := false
+var update_mode := UpdateMode.WHEN_CHANGED
+## Whether the node is the one that lights its world.
+var is_active := false
 ## Of captures; where they are seen from is the node's position.
 var capture := ViewPlace.new()
 ## Called when a panorama has changed.

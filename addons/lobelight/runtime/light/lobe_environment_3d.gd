@@ -88,23 +88,16 @@ enum Filter {
 	DISC,
 }
 
-const EnvironmentSource := preload("environment_source.gd")
-const FrameWait := preload("frame_wait.gd")
 const LightRegistry := preload("light_registry.gd")
 const LightSettings := preload("light_settings.gd")
-const LiveTextures := preload("live_textures.gd")
-const Pyramid := preload("../pyramid/pyramid.gd")
-const PyramidChain := preload("../pyramid/pyramid_chain.gd")
+const OnDemand := preload("../on_demand.gd")
+
+## Texels along the side of a face: the least and the most that can be asked for.
+const MIN_SIZE := 4
+const MAX_SIZE := 2048
 
 const _GROUP := &"_lobelight_environments"
-# Frames without an update after which the memory for drawing is given back.
-const _IDLE_FRAMES := 120
-# Captures after that of a change, each of which brings one more reflection between materials.
-const _ECHOES := 3
-# Milliseconds in which a scene may still get the sky that its light lacks.
-const _PATIENCE := 2000
-# What is drawn in one frame has no slices.
-const _WHOLE := -1
+const _LIVE := "res://addons/lobelight/runtime/live/live_light.gd"
 
 # Counts the environments that have come, so that the first of a world can be told.
 static var _arrivals := 0
@@ -121,6 +114,7 @@ static var _arrivals := 0
 @export var update_mode := UpdateMode.WHEN_CHANGED:
 	set(value):
 		update_mode = value
+		_settings.update_mode = value as LightSettings.UpdateMode
 		_mark_stale()
 		update_configuration_warnings()
 ## The surroundings, in the same projection as [PanoramaSkyMaterial]: +z in the middle, −z at the
@@ -143,7 +137,7 @@ static var _arrivals := 0
 @export var filter := Filter.DISC:
 	set(value):
 		filter = value
-		_settings.filter = value as Pyramid.Filter
+		_settings.filter = value
 		_mark_stale()
 ## Texels along the side of the cube map's faces. Automatic is 256, and for panoramas their width,
 ## rounded up to a power of two, at most 512, which takes 17 MB. Half the size takes a quarter of
@@ -154,7 +148,7 @@ static var _arrivals := 0
 )
 var size := 0:
 	set(value):
-		size = 0 if value <= 0 else clampi(nearest_po2(value), Pyramid.MIN_SIZE, Pyramid.MAX_SIZE)
+		size = 0 if value <= 0 else clampi(nearest_po2(value), MIN_SIZE, MAX_SIZE)
 		_settings.size = size
 		_mark_stale()
 		update_configuration_warnings()
@@ -172,6 +166,15 @@ var size := 0:
 @export_range(0.0, 10.0, 0.05, "or_greater", "suffix:s") var fade_time := 0.0:
 	set(value):
 		fade_time = maxf(value, 0.0) if is_finite(value) else 0.0
+
+## A light that was baked, from a panorama or a sky. The node shows it instead of its source, turned
+## by its rotation, from the first frame on; nothing is filtered when the game runs.
+@export var light: LobeLight:
+	set(value):
+		if light == value:
+			return
+		light = value
+		_show_baked()
 
 @export_group("Capture", "capture_")
 ## Layers of the scene that are captured.
@@ -210,54 +213,32 @@ var size := 0:
 	get:
 		if not measure_cost:
 			return 0.0
-		return _chain.get_gpu_time() if _chain != null else _gpu_time
+		return _live.get_gpu_time() if _live != null else 0.0
 ## Milliseconds of the processor for handing the last update to the cube map. In Compatibility it
 ## contains the wait for the GPU.
 @export var update_cpu_time: float:
 	get:
-		return _cpu_time
+		return _live.cpu_time if _live != null else 0.0
 ## Frames that the last update was drawn in.
 @export var update_frames: int:
 	get:
-		return _frames
+		return _live.frames if _live != null else 0
 
 var _arrival := 0
-var _light: LobeLight
-var _error := ""
-# Whether the light is older than the properties.
-var _stale := true
 var _settings := LightSettings.new()
-var _source := EnvironmentSource.new(_settings)
-var _chain: PyramidChain
-# Of the update under way: whether there is one, which slice comes next, and whether it is drawn.
-var _running := false
-var _slice := _WHOLE
-var _drawn := false
-var _idle := 0
-var _waits: Array[FrameWait] = []
-var _is_watching := false
-# Captures that are still to follow, and whether materials have shown no light but the node's
-# captures since these began without any; whether they show none at the moment.
-var _echoes := 0
-var _lit_by_itself := false
-var _in_the_dark := false
-# Whether the node lights its world, and from what its light was made.
-var _active := false
-var _light_kind := EnvironmentSource.Kind.NONE
-# Whether it has been told what the light lacks, and when, in milliseconds, it is to be.
-var _is_told := false
-var _tell_time := 0
-# What the last update cost.
-var _gpu_time := 0.0
-var _cpu_time := 0.0
-var _frames := 0
+# Draws the light. Made when the node first enters a world, or is asked for a light; null in exports
+# that leave it out.
+var _live: RefCounted
+# Why there is none, in a sentence.
+var _loss := ""
+# What is shown in place of it: the baked light at this node's place.
+var _baked: LobeLight
 
 
 func _init() -> void:
 	set_notify_transform(true)
 	_settings.node = self
 	_settings.on_panorama_changed = _on_panorama_changed
-	_watch_frames()
 
 
 func _notification(what: int) -> void:
@@ -266,6 +247,7 @@ func _notification(what: int) -> void:
 			_arrivals += 1
 			_arrival = _arrivals
 			add_to_group(_GROUP)
+			_load_live()
 			_update_placement()
 			_check_in()
 			if is_visible_in_tree() and not is_active():
@@ -275,7 +257,9 @@ func _notification(what: int) -> void:
 		NOTIFICATION_EXIT_WORLD:
 			remove_from_group(_GROUP)
 			LightRegistry.withdraw(get_instance_id())
-			_leave_world()
+			_settings.is_active = false
+			if _live != null:
+				_live.leave_world()
 			for other in _get_others():
 				other._check_in.call_deferred()
 		NOTIFICATION_VISIBILITY_CHANGED:
@@ -284,14 +268,12 @@ func _notification(what: int) -> void:
 				other._check_in()
 		NOTIFICATION_TRANSFORM_CHANGED:
 			_update_placement()
-			if source == Source.CAPTURE and update_mode == UpdateMode.WHEN_CHANGED:
-				_mark_stale()
+			if _live != null:
+				_live.follow_move()
 		NOTIFICATION_PREDELETE:
 			LightRegistry.withdraw(get_instance_id())
-			_running = false
-			_light = null
-			for wait: FrameWait in _waits.duplicate():
-				wait.go_on()
+			if _live != null:
+				_live.end()
 
 
 func _validate_property(property: Dictionary) -> void:
@@ -319,87 +301,81 @@ func is_active() -> bool:
 	return true
 
 
-## The pyramid as six half-float faces with mip levels; [code]null[/code] until it has been made.
-## It is a [Cubemap] in Compatibility, otherwise a [TextureCubemapRD].
+## The pyramid as six faces with mip levels, half floats unless it was baked in another format;
+## [code]null[/code] until it has been made. It is a [Cubemap] if it was baked and in Compatibility,
+## otherwise a [TextureCubemapRD].
 func get_cubemap() -> TextureLayered:
-	return _light.cubemap if _light != null else null
+	var shown := get_light()
+	return shown.cubemap if shown != null else null
 
 
 ## The light as materials take it, see [member LobeMaterial3D.light]; [code]null[/code] until it has
 ## been made. It goes on with the node's updates.
 func get_light() -> LobeLight:
-	return _light
+	if _baked != null:
+		return _baked
+	return _live.light if _live != null else null
 
 
 ## Frames in which [constant TIME_SLICED] makes the pyramid anew: 8 with views of a sky or a scene,
 ## 2 with a panorama; 6 more in Compatibility. 0 until the first update.
 func get_sliced_frames() -> int:
-	return _chain.get_slices() if _chain != null else 0
+	return _live.get_slices() if _live != null else 0
 
 
 ## Why the last [method rebuild] made no pyramid, in a sentence; empty if it did.
 func get_rebuild_error() -> String:
-	return _error
+	return _live.error if _live != null else _loss
 
 
 ## Makes the pyramid anew, in one frame; three captures more follow that of a scene, see
 ## [constant CAPTURE]. Changing a property does so by itself; call it when the contents of textures
 ## have changed. It takes until the end of a frame: [code]await
 ## environment.rebuild()[/code] gives false if it could not be done, with the reason in
-## [method get_rebuild_error].
+## [method get_rebuild_error]. A baked [member light] is there at once.
 func rebuild() -> bool:
-	if not _begin(_WHOLE):
+	_load_live()
+	if _baked != null:
+		return true
+	if _live == null:
 		return false
-	return await _wait()
+	return await _live.rebuild()
 
 
-# Until the update has ended. A later call may start it anew; its result is this one's too. What is
-# awaited is not the node's own, so that the caller may free the node then.
-func _wait() -> bool:
-	var wait := FrameWait.new()
-	_waits.append(wait)
-	while _running:
-		if FrameWait.is_rendering_paused():
-			_mark_stale()
-			_stop("Rendering is paused, so nothing is drawn.")
-			break
-		await wait.went_on
-	_waits.erase(wait)
-	return _light != null and _error.is_empty()
+# What draws the light, unless it is baked. Exports may have left it out.
+func _load_live() -> void:
+	if _live != null or _baked != null:
+		return
+	var script := OnDemand.fetch(_LIVE, OnDemand.LIVE) as GDScript
+	_loss = "" if script != null else OnDemand.find_loss(_LIVE, OnDemand.LIVE)
+	if script != null:
+		_live = script.new(_settings, _on_drawn)
 
 
-# Ends an update under way without a light of its own.
-func _stop(why: String) -> void:
-	if _running:
-		_running = false
-		_error = why
-		rebuild_finished.emit()
+func _show_baked() -> void:
+	_baked = null
+	var problem := light.get_problem() if light != null else ""
+	if problem:
+		push_error(
+			(
+				"LobeEnvironment3D: %s: %s"
+				% [light.resource_path if light.resource_path else "Light", problem]
+			)
+		)
+	elif light != null:
+		_baked = light.at_another_place()
+		if _live != null:
+			_live.end()
+			_live = null
+	elif is_inside_tree():
+		_load_live()
+	_update_placement()
+	_check_in()
 
 
 func _mark_stale() -> void:
-	_stale = true
-	_watch_frames()
-
-
-# Servers load scenes without a renderer and need no light.
-func _watch_frames() -> void:
-	if not _is_watching and Pyramid.has_renderer():
-		_is_watching = true
-		RenderingServer.frame_pre_draw.connect(_on_frame_pre_draw)
-		RenderingServer.frame_post_draw.connect(_on_frame_post_draw)
-
-
-# While nothing can change but by what calls the node, nothing is called in each frame.
-func _rest_if_settled() -> void:
-	if _running or _chain != null or _active and (_stale or _echoes > 0):
-		return
-	var is_still := update_mode == UpdateMode.ONCE
-	if update_mode == UpdateMode.WHEN_CHANGED and _light_kind == EnvironmentSource.Kind.PANORAMA:
-		is_still = _settings.takes_panorama() and not LiveTextures.is_live(panorama)
-	if is_still or not _active:
-		_is_watching = false
-		RenderingServer.frame_pre_draw.disconnect(_on_frame_pre_draw)
-		RenderingServer.frame_post_draw.disconnect(_on_frame_post_draw)
+	if _live != null:
+		_live.mark_stale()
 
 
 func _on_panorama_changed() -> void:
@@ -408,168 +384,14 @@ func _on_panorama_changed() -> void:
 	update_configuration_warnings()
 
 
-# All the frame's changes have been made by now.
-func _on_frame_pre_draw() -> void:
-	# Hidden nodes, and those that wait for another one to leave, make nothing.
-	if _active and not _running:
-		_start_if_due()
-	if _running:
-		if _chain != null:
-			_chain.draw(_slice)
-		_drawn = true
-		_idle = 0
-	elif _chain != null and not _chain.draw_for_clock():
-		_idle += 1
-		if _idle > _IDLE_FRAMES or update_mode == UpdateMode.ONCE and not measure_cost:
-			_gpu_time = update_gpu_time
-			_chain = null
-	if _chain == null:
-		_rest_if_settled()
-
-
-func _start_if_due() -> void:
-	if not _stale:
-		# Without a light there is something in the way, which only a property can change.
-		if _light == null:
-			return
-		if _echoes > 0:
-			var changed := update_mode == UpdateMode.WHEN_CHANGED and _source.look()
-			var echoes := _ECHOES if changed else _echoes - 1
-			if _begin(_WHOLE):
-				_echoes = echoes
-			return
-		if update_mode == UpdateMode.ONCE:
-			return
-		if _light_kind == EnvironmentSource.Kind.SKY_PANORAMA:
-			_update_placement(true)
-		_stale = _is_live() or _source.look()
-		if not _stale:
-			return
-	if update_mode == UpdateMode.TIME_SLICED and _chain != null and _chain.awaits_clock():
-		return
-	var is_sliced := update_mode == UpdateMode.TIME_SLICED and _light != null
-	_begin(0 if is_sliced else _WHOLE)
-
-
-# Starts an update from its first slice, instead of one under way.
-func _begin(slice: int) -> bool:
-	_stale = false
-	_running = false
-	_error = _source.find_obstacle()
-	var loss := _source.find_loss() if _error.is_empty() else ""
-	if loss:
-		_error = loss
-	if _error:
-		_chain = null
-		_set_light(null)
-		if loss:
-			push_error("LobeEnvironment3D: " + loss)
-		# A panorama that is not set yet is no reason to warn.
-		elif panorama != null or source == Source.SKY or source == Source.CAPTURE:
-			push_warning("LobeEnvironment3D: " + _error)
-		return false
-	_source.look()
-	_chain = _source.make_chain(_chain)
-	_slice = slice if _chain != null else _WHOLE
-	_prepare_capture()
-	_running = true
-	_drawn = false
-	_watch_frames()
-	return true
-
-
-# What materials show before the node's first capture is no light of the scene's, unless another
-# environment has lit it until now: that one stays, so that nothing flashes.
-func _prepare_capture() -> void:
-	var captures := _source.get_kind() == EnvironmentSource.Kind.SCENE_VIEWS
-	_echoes = _ECHOES if captures and not _is_live() else 0
-	_lit_by_itself = _lit_by_itself and captures
-	if captures and _active and not _lit_by_itself:
-		_lit_by_itself = true
-		_slice = _WHOLE
-		if LightRegistry.is_lit_by_other(get_world_3d(), get_instance_id()):
-			return
-		_in_the_dark = true
-		var is_even := Pyramid.is_round(filter as Pyramid.Filter)
-		LightRegistry.offer(get_world_3d(), get_instance_id(), LobeLight.make_dark(is_even))
-
-
-func _is_live() -> bool:
-	return update_mode == UpdateMode.EVERY_FRAME or update_mode == UpdateMode.TIME_SLICED
-
-
-func _on_frame_post_draw() -> void:
-	if not _running or not _drawn:
-		return
-	_drawn = false
-	if _chain != null and not _chain.receive(_slice):
-		_running = false
-		_chain = null
-		_error = "The renderer did not draw the pyramid."
-		push_warning("LobeEnvironment3D: " + _error)
-		_set_light(null)
-		return
-	if _slice != _WHOLE:
-		_slice += 1
-		if _slice < _chain.get_slices():
-			return
-	_running = false
-	_frames = 1 if _slice == _WHOLE else _slice
-	_cpu_time = _chain.transfer_time if _chain != null else 0.0
-	if _chain == null:
-		_gpu_time = 0.0
-	_light_kind = _source.get_kind()
-	_lit_by_itself = _lit_by_itself and _active
-	_set_light(_source.get_light(_chain))
-
-
-func _set_light(light: LobeLight) -> void:
-	var is_other := light != _light
-	_light = light
-	_lit_by_itself = _lit_by_itself and light != null
+# An update has ended, with another light than before or not.
+func _on_drawn(is_other: bool) -> void:
 	_update_placement()
-	# Without a light, nobody has to wait for it any longer.
-	if is_other or _in_the_dark or light == null:
-		_in_the_dark = false
+	if is_other:
 		_check_in()
-	if light != null and _light_kind == EnvironmentSource.Kind.EVEN:
-		_tell_later()
-	if light != null:
+	if _live != null and _live.light != null:
 		rebuilt.emit()
 	rebuild_finished.emit()
-
-
-# In the editor, the scene tree says it.
-func _tell_later() -> void:
-	if _is_told or not is_inside_tree() or Engine.is_editor_hint():
-		return
-	if not get_tree().process_frame.is_connected(_tell):
-		_tell_time = Time.get_ticks_msec() + _PATIENCE
-		get_tree().process_frame.connect(_tell)
-
-
-func _tell() -> void:
-	if Time.get_ticks_msec() < _tell_time:
-		return
-	var tree := Engine.get_main_loop() as SceneTree
-	tree.process_frame.disconnect(_tell)
-	var shortage := _source.find_shortage() if is_inside_tree() and is_active() else ""
-	_is_told = not shortage.is_empty()
-	if shortage:
-		push_warning("LobeEnvironment3D: %s: %s" % [get_path(), shortage])
-
-
-# What has been drawn of another world's light is of no use.
-func _leave_world() -> void:
-	_active = false
-	_lit_by_itself = false
-	_in_the_dark = false
-	if _light_kind == EnvironmentSource.Kind.PANORAMA and not _running:
-		return
-	if _source.leave_world():
-		_mark_stale()
-		_chain = null
-		_stop("The node has left the world whose light it was taking.")
 
 
 # Offers the light, or takes it back, as it is the node's turn or not.
@@ -577,26 +399,29 @@ func _check_in() -> void:
 	if not is_inside_tree():
 		return
 	update_configuration_warnings()
-	_active = is_active()
-	if _active:
-		_watch_frames()
-	if _active and _light_kind == EnvironmentSource.Kind.SCENE_VIEWS and not _lit_by_itself:
-		# It was captured in another's light.
-		_mark_stale()
-	if not _active or _light == null and not _in_the_dark:
-		LightRegistry.withdraw(get_instance_id())
-		# The old light stays until this one has been made.
-		if _active and _stale and _source.find_obstacle().is_empty():
-			LightRegistry.expect(get_world_3d(), get_instance_id())
+	_settings.is_active = is_active()
+	if _live != null:
+		_live.follow_activity()
+		# What is dark for the first capture's sake stays so.
+		if _settings.is_active and _live.is_in_the_dark:
+			return
+	var shown := get_light()
+	if _settings.is_active and shown != null:
+		LightRegistry.offer(get_world_3d(), get_instance_id(), shown, fade_time)
 		return
-	if _in_the_dark:
-		return
-	LightRegistry.offer(get_world_3d(), get_instance_id(), _light, fade_time)
+	LightRegistry.withdraw(get_instance_id())
+	# The old light stays until this one has been made.
+	if _settings.is_active and _live != null and _live.is_awaited():
+		LightRegistry.expect(get_world_3d(), get_instance_id())
 
 
-func _update_placement(is_drawing := false) -> void:
-	if _light != null and _source.place(_light, _light_kind):
-		LightRegistry.update_placement(_light, is_drawing)
+func _update_placement() -> void:
+	if _baked != null:
+		_baked.energy = energy
+		_baked.rotation = (global_basis if is_inside_tree() else basis).orthonormalized()
+		LightRegistry.update_placement(_baked)
+	elif _live != null and _live.place():
+		LightRegistry.update_placement(_live.light)
 
 
 # The other environments of the same world.

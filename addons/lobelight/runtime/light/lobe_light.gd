@@ -117,6 +117,18 @@ func has_box() -> bool:
 	return box_size != Vector3.ZERO
 
 
+## The same light, to be placed somewhere else than this one; the two share what they show.
+func at_another_place() -> LobeLight:
+	var other := LobeLight.new()
+	other.faces = faces
+	other.size = size
+	other.level_variance = level_variance
+	other.base_variance = base_variance
+	other.is_even = is_even
+	other.cubemap = cubemap
+	return other
+
+
 ## Hands the light to a material of the rendering server.
 func apply(material: RID) -> void:
 	var server := RenderingServer

@@ -7,12 +7,12 @@ extends RefCounted
 ## sky, views of a sky, views of the scene.
 enum Kind { NONE, PANORAMA, EVEN, SKY_PANORAMA, SKY_VIEWS, SCENE_VIEWS }
 
-const LightSettings := preload("light_settings.gd")
-const LiveTextures := preload("live_textures.gd")
+const LightSettings := preload("../light/light_settings.gd")
+const LiveTextures := preload("../light/live_textures.gd")
 const FaceViews := preload("../pyramid/face_views.gd")
 const Pyramid := preload("../pyramid/pyramid.gd")
 const PyramidChain := preload("../pyramid/pyramid_chain.gd")
-const WorldLight := preload("world_light.gd")
+const WorldLight := preload("../light/world_light.gd")
 
 ## Where nothing says how fine the light is.
 const DEFAULT_SIZE := 256

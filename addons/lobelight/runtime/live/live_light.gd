@@ -1,0 +1,345 @@
+@tool
+extends RefCounted
+## Draws the light of a [LobeEnvironment3D] while the game runs: when, in which slices, and what
+## came of it. Exports leave it out where all light is baked.
+
+const EnvironmentSource := preload("environment_source.gd")
+const FrameWait := preload("../light/frame_wait.gd")
+const LightRegistry := preload("../light/light_registry.gd")
+const LightSettings := preload("../light/light_settings.gd")
+const LiveTextures := preload("../light/live_textures.gd")
+const Pyramid := preload("../pyramid/pyramid.gd")
+const PyramidChain := preload("../pyramid/pyramid_chain.gd")
+
+# Frames without an update after which the memory for drawing is given back.
+const _IDLE_FRAMES := 120
+# Captures after that of a change, each of which brings one more reflection between materials.
+const _ECHOES := 3
+# Milliseconds in which a scene may still get the sky that its light lacks.
+const _PATIENCE := 2000
+# What is drawn in one frame has no slices.
+const _WHOLE := -1
+
+## What has been drawn; [code]null[/code] until then, and where it cannot be.
+var light: LobeLight
+## Why there is none, in a sentence.
+var error := ""
+## What the light is drawn with; given back some time after the last update.
+var chain: PyramidChain
+var source: EnvironmentSource
+## Whether materials show no light at the moment, so that the node's capture has none in it.
+var is_in_the_dark := false
+## What the last update cost, in milliseconds, and the frames that it was drawn in.
+var cpu_time := 0.0
+var frames := 0
+
+var _settings: LightSettings
+# To be called when an update has ended; whether the light is another object than before.
+var _on_end: Callable
+# Whether the light is older than the properties.
+var _stale := true
+var _kind := EnvironmentSource.Kind.NONE
+# Of the update under way: whether there is one, which slice comes next, and whether it is drawn.
+var _running := false
+var _slice := _WHOLE
+var _drawn := false
+var _idle := 0
+var _waits: Array[FrameWait] = []
+var _is_watching := false
+# Captures that are still to follow, and whether materials have shown no light but the node's
+# captures since these began without any.
+var _echoes := 0
+var _lit_by_itself := false
+# Whether it has been told what the light lacks, and when, in milliseconds, it is to be.
+var _is_told := false
+var _tell_time := 0
+var _gpu_time := 0.0
+
+
+func _init(settings: LightSettings, on_end: Callable) -> void:
+	_settings = settings
+	_on_end = on_end
+	source = EnvironmentSource.new(settings)
+
+
+## Nothing is drawn any more, and nobody waits.
+func end() -> void:
+	_running = false
+	light = null
+	chain = null
+	_stop_watching()
+	for wait: FrameWait in _waits.duplicate():
+		wait.go_on()
+
+
+## What the light is made from, or how, is another.
+func mark_stale() -> void:
+	_stale = true
+	_watch_frames()
+
+
+## Whether a light is to come that has not been drawn yet.
+func is_awaited() -> bool:
+	return _stale and source.find_obstacle().is_empty()
+
+
+## Frames in which an update that is spread over frames is drawn; 0 until the first.
+func get_slices() -> int:
+	return chain.get_slices() if chain != null else 0
+
+
+## Milliseconds of the GPU for the last update.
+func get_gpu_time() -> float:
+	return chain.get_gpu_time() if chain != null else _gpu_time
+
+
+## Draws the light anew, in one frame; whether it could be done.
+func rebuild() -> bool:
+	if not _begin(_WHOLE):
+		return false
+	return await _wait()
+
+
+## The node has become the one that lights its world, or has ceased to be.
+func follow_activity() -> void:
+	if not _settings.is_active:
+		return
+	_watch_frames()
+	if _kind == EnvironmentSource.Kind.SCENE_VIEWS and not _lit_by_itself:
+		# It was captured in another's light.
+		mark_stale()
+
+
+## Gives the light its rotation and energy; whether they are others than before.
+func place() -> bool:
+	return light != null and source.place(light, _kind)
+
+
+## What has been drawn of another world's light is of no use.
+func leave_world() -> void:
+	_lit_by_itself = false
+	is_in_the_dark = false
+	if _kind == EnvironmentSource.Kind.PANORAMA and not _running:
+		return
+	if source.leave_world():
+		mark_stale()
+		chain = null
+		_stop("The node has left the world whose light it was taking.")
+
+
+## The scene may look different from where the node is now.
+func follow_move() -> void:
+	var captures := _settings.source == LightSettings.Source.CAPTURE
+	if captures and _settings.update_mode == LightSettings.UpdateMode.WHEN_CHANGED:
+		mark_stale()
+
+
+# Until the update has ended. A later call may start it anew; its result is this one's too. What is
+# awaited is not the light's own, so that the caller may free the node then.
+func _wait() -> bool:
+	var wait := FrameWait.new()
+	_waits.append(wait)
+	while _running:
+		if FrameWait.is_rendering_paused():
+			mark_stale()
+			_stop("Rendering is paused, so nothing is drawn.")
+			break
+		await wait.went_on
+	_waits.erase(wait)
+	return light != null and error.is_empty()
+
+
+# Ends an update under way without a light of its own.
+func _stop(why: String) -> void:
+	if _running:
+		_running = false
+		error = why
+		_on_end.call(false)
+
+
+# Servers load scenes without a renderer and need no light.
+func _watch_frames() -> void:
+	if not _is_watching and Pyramid.has_renderer():
+		_is_watching = true
+		RenderingServer.frame_pre_draw.connect(_on_frame_pre_draw)
+		RenderingServer.frame_post_draw.connect(_on_frame_post_draw)
+
+
+func _stop_watching() -> void:
+	if _is_watching:
+		_is_watching = false
+		RenderingServer.frame_pre_draw.disconnect(_on_frame_pre_draw)
+		RenderingServer.frame_post_draw.disconnect(_on_frame_post_draw)
+
+
+# While nothing can change but by what calls the node, nothing is called in each frame.
+func _rest_if_settled() -> void:
+	if _running or chain != null or _settings.is_active and (_stale or _echoes > 0):
+		return
+	var is_still := _settings.update_mode == LightSettings.UpdateMode.ONCE
+	if (
+		_settings.update_mode == LightSettings.UpdateMode.WHEN_CHANGED
+		and _kind == EnvironmentSource.Kind.PANORAMA
+	):
+		is_still = _settings.takes_panorama() and not LiveTextures.is_live(_settings.panorama)
+	if is_still or not _settings.is_active:
+		_stop_watching()
+
+
+# All the frame's changes have been made by now.
+func _on_frame_pre_draw() -> void:
+	# Hidden nodes, and those that wait for another one to leave, make nothing.
+	if _settings.is_active and not _running:
+		_start_if_due()
+	if _running:
+		if chain != null:
+			chain.draw(_slice)
+		_drawn = true
+		_idle = 0
+	elif chain != null and not chain.draw_for_clock():
+		_idle += 1
+		var is_over := _settings.update_mode == LightSettings.UpdateMode.ONCE
+		if _idle > _IDLE_FRAMES or is_over and not _settings.measure_cost:
+			_gpu_time = get_gpu_time()
+			chain = null
+	if chain == null:
+		_rest_if_settled()
+
+
+func _start_if_due() -> void:
+	var mode := _settings.update_mode
+	if not _stale:
+		# Without a light there is something in the way, which only a property can change.
+		if light == null:
+			return
+		if _echoes > 0:
+			var changed := mode == LightSettings.UpdateMode.WHEN_CHANGED and source.look()
+			var echoes := _ECHOES if changed else _echoes - 1
+			if _begin(_WHOLE):
+				_echoes = echoes
+			return
+		if mode == LightSettings.UpdateMode.ONCE:
+			return
+		if _kind == EnvironmentSource.Kind.SKY_PANORAMA and place():
+			LightRegistry.update_placement(light, true)
+		_stale = _is_continual() or source.look()
+		if not _stale:
+			return
+	var is_sliced := mode == LightSettings.UpdateMode.TIME_SLICED
+	if is_sliced and chain != null and chain.awaits_clock():
+		return
+	_begin(0 if is_sliced and light != null else _WHOLE)
+
+
+# Starts an update from its first slice, instead of one under way.
+func _begin(slice: int) -> bool:
+	_stale = false
+	_running = false
+	error = source.find_obstacle()
+	var loss := source.find_loss() if error.is_empty() else ""
+	if loss:
+		error = loss
+	if error:
+		chain = null
+		_set_light(null)
+		if loss:
+			push_error("LobeEnvironment3D: " + loss)
+		# A panorama that is not set yet is no reason to warn.
+		elif (
+			_settings.panorama != null
+			or _settings.source == LightSettings.Source.SKY
+			or _settings.source == LightSettings.Source.CAPTURE
+		):
+			push_warning("LobeEnvironment3D: " + error)
+		return false
+	source.look()
+	chain = source.make_chain(chain)
+	_slice = slice if chain != null else _WHOLE
+	_prepare_capture()
+	_running = true
+	_drawn = false
+	_watch_frames()
+	return true
+
+
+# What materials show before the node's first capture is no light of the scene's, unless another
+# environment has lit it until now: that one stays, so that nothing flashes.
+func _prepare_capture() -> void:
+	var captures := source.get_kind() == EnvironmentSource.Kind.SCENE_VIEWS
+	_echoes = _ECHOES if captures and not _is_continual() else 0
+	_lit_by_itself = _lit_by_itself and captures
+	if captures and _settings.is_active and not _lit_by_itself:
+		_lit_by_itself = true
+		_slice = _WHOLE
+		var world := _settings.node.get_world_3d()
+		var owner := _settings.node.get_instance_id()
+		if LightRegistry.is_lit_by_other(world, owner):
+			return
+		is_in_the_dark = true
+		var is_even := Pyramid.is_round(_settings.filter as Pyramid.Filter)
+		LightRegistry.offer(world, owner, LobeLight.make_dark(is_even))
+
+
+func _is_continual() -> bool:
+	return (
+		_settings.update_mode == LightSettings.UpdateMode.EVERY_FRAME
+		or _settings.update_mode == LightSettings.UpdateMode.TIME_SLICED
+	)
+
+
+func _on_frame_post_draw() -> void:
+	if not _running or not _drawn:
+		return
+	_drawn = false
+	if chain != null and not chain.receive(_slice):
+		_running = false
+		chain = null
+		error = "The renderer did not draw the pyramid."
+		push_warning("LobeEnvironment3D: " + error)
+		_set_light(null)
+		return
+	if _slice != _WHOLE:
+		_slice += 1
+		if _slice < chain.get_slices():
+			return
+	_running = false
+	frames = 1 if _slice == _WHOLE else _slice
+	cpu_time = chain.transfer_time if chain != null else 0.0
+	if chain == null:
+		_gpu_time = 0.0
+	_kind = source.get_kind()
+	_lit_by_itself = _lit_by_itself and _settings.is_active
+	_set_light(source.get_light(chain))
+
+
+func _set_light(drawn: LobeLight) -> void:
+	# Without a light, nobody has to wait for it any longer.
+	var is_other := drawn != light or is_in_the_dark or drawn == null
+	light = drawn
+	_lit_by_itself = _lit_by_itself and drawn != null
+	is_in_the_dark = false
+	if drawn != null and _kind == EnvironmentSource.Kind.EVEN:
+		_tell_later()
+	_on_end.call(is_other)
+
+
+# In the editor, the scene tree says it.
+func _tell_later() -> void:
+	if _is_told or not _settings.node.is_inside_tree() or Engine.is_editor_hint():
+		return
+	var tree := _settings.node.get_tree()
+	if not tree.process_frame.is_connected(_tell):
+		_tell_time = Time.get_ticks_msec() + _PATIENCE
+		tree.process_frame.connect(_tell)
+
+
+func _tell() -> void:
+	if Time.get_ticks_msec() < _tell_time:
+		return
+	var tree := Engine.get_main_loop() as SceneTree
+	tree.process_frame.disconnect(_tell)
+	var is_shown := _settings.node.is_inside_tree() and _settings.is_active
+	var shortage := source.find_shortage() if is_shown else ""
+	_is_told = not shortage.is_empty()
+	if shortage:
+		push_warning("LobeEnvironment3D: %s: %s" % [_settings.node.get_path(), shortage])
