@@ -50,7 +50,7 @@ PyramidOptions options_of(int size, bool is_gaussian, double base_variance = 0.0
   options.size = size;
   options.is_gaussian = is_gaussian;
   options.base_variance = base_variance;
-  options.samples = base_variance > 0.0 ? 8 : 2;
+  options.samples = 2;
   options.threads = 2;
   return options;
 }

@@ -41,7 +41,7 @@ CHANGES = {
     "panorama.gdshaderinc": ("0.156583", "0.157583", ["panorama_1"]),
     "placed_light.gdshaderinc": ("along = p * quotient", "along = 0.999 * p * quotient", ["placed_0"]),
     "pyramid_pack.gdshader": ("uvec4(255u)", "uvec4(254u)", ["pack_4_0"]),
-    "pyramid_panorama.gdshader": ("2.0 * float(samples)", "2.1 * float(samples)", ["pyramid_disc_16_32"]),
+    "pyramid_panorama.gdshader": ("sqrt(3.0 * variance)", "sqrt(3.1 * variance)", ["pyramid_disc_16_32"]),
     "pyramid_reduce.gdshader": ("near_x ? 3.0", "near_x ? 2.9", ["pyramid_binomial_16_32"]),
     "pyramid_round.gdshader": ("1.0 - 0.25 /", "1.0 - 0.35 /", ["pyramid_disc_16_32"]),
     "pyramid_views.gdshader": ("vec3(2.4)", "vec3(2.41)", ["views_1"]),

@@ -63,6 +63,30 @@ def panorama_light(texels, d, u_off=0.0, v_off=0.0):
     return (1 - g) * ((1 - f) * t[y0, x0] + f * t[y0, x1]) + g * ((1 - f) * t[y1, x0] + f * t[y1, x1])
 
 
+def tent_below(t):
+    """The integral of max(1 - |t|, 0) up to t."""
+    return np.where(t < 0, np.clip(1 + t, 0, 1) ** 2 / 2, 1 - np.clip(1 - t, 0, 1) ** 2 / 2)
+
+
+def square_mean(texels, d, azimuth, polar, u_off=0.0, v_off=0.0):
+    """The mean of the bilinear light within these angles to each side of a direction (3)."""
+    height, width = texels.shape[:2]
+    x = (math.atan2(d[0], -d[2]) / (2 * math.pi) + u_off) * width - 0.5
+    y = (math.atan2(math.hypot(d[0], d[2]), d[1]) / math.pi + v_off) * height - 0.5
+    half_columns, half_rows = azimuth / (2 * math.pi) * width, polar / math.pi * height
+    columns, across = tents_under(x, half_columns)
+    rows, along = tents_under(y, half_rows)
+    columns = np.bincount(columns % width, across, minlength=width)
+    rows = np.bincount(np.clip(rows, 0, height - 1), along, minlength=height)
+    return np.einsum("y,x,yxc->c", rows, columns, texels[..., :3].astype(float))
+
+
+def tents_under(at, half):
+    """The texels whose tents reach into an interval, and their share of it."""
+    every = np.arange(math.floor(at - half) - 1, math.ceil(at + half) + 2)
+    return every, (tent_below(at + half - every) - tent_below(at - half - every)) / (2 * half)
+
+
 def unit(d):
     return d / np.linalg.norm(d, axis=-1, keepdims=True)
 
@@ -164,34 +188,15 @@ class Pyramid:
             d = face_direction(face, x.ravel(), y.ravel())
             light, spread = panorama_spread(texels, d)
             return light.mean(axis=0), spread.mean(axis=0)
-        samples = 8
-        texel = 1 + centre[0] ** 2 + centre[1] ** 2
-        variance = self.base + TENT * (1 - texel**-1.5)
-        step = 2 / self.size
-        if self.filter == "gaussian":
-            deviation = math.sqrt(variance / REACHED_SHARE) * step
-            reach = REACH * deviation
-        else:
-            deviation = math.sqrt(variance) * step
-            # Twice the standard deviation, and half a sample's rim.
-            reach = 2 * deviation * samples / (samples - 1)
-        between = 2 * reach / samples
-        at = (np.arange(samples) + 0.5) * between - reach
-        x, y = (a.ravel() for a in np.meshgrid(at, at))
-        squared = x**2 + y**2
-        if self.filter == "gaussian":
-            weights = np.exp(-0.5 * squared / deviation**2)
-        else:
-            radius = 2 * math.sqrt(deviation**2 - RIM_VARIANCE * between**2)
-            weights = np.clip((radius - np.sqrt(squared)) / between + 0.5, 0, 1)
+        # The mean over a square as wide as its variance has it, along the panorama's rows and columns.
+        variance = self.base + TENT * (1 - (1 + centre[0] ** 2 + centre[1] ** 2) ** -1.5)
+        half = math.sqrt(3 * variance) * 2 / self.size
         d = unit(face_direction(face, np.array(centre[0]), np.array(centre[1])))
-        # The plane that touches the sphere, whose axes the shader states.
-        right = unit(np.array([d[2], 0, -d[0]]) if abs(d[1]) < 0.9 else np.array([0, -d[2], d[1]]))
-        down = np.cross(d, right)
-        seen, spread = panorama_spread(texels, unit(d + x[:, None] * right + y[:, None] * down))
-        mean = (weights[:, None] * seen).sum(axis=0) / weights.sum()
-        rim = CONSTANTS * np.abs(seen - mean).sum(axis=0) / weights.sum()
-        return mean, (weights[:, None] * spread).sum(axis=0) / weights.sum() + rim
+        azimuth = 2 * math.atan2(half, 2 * math.hypot(d[0], d[2]))
+        mean = square_mean(texels, d, azimuth, half)
+        corners = [(u, v) for u in (-ANGLES, ANGLES) for v in (-ANGLES, ANGLES)]
+        seen = [square_mean(texels, d, azimuth * (1 + wide), half, *at) for at in corners for wide in (-ATAN, ATAN)]
+        return mean, np.max(np.abs(np.array(seen) - mean), axis=0)
 
     # The others
 

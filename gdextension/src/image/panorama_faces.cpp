@@ -49,34 +49,18 @@ glm::dvec3 mean_over_texel(const PanoramaLight& light, const PyramidOptions& opt
   return sum / static_cast<double>(samples * samples);
 }
 
-// A Gaussian or a disc about a direction, on a square of samples in the plane that touches the
-// sphere there.
-glm::dvec3 mean_over_kernel(const PanoramaLight& light, const PyramidOptions& options,
+// How much of the tent 1 − |t| lies below t.
+double tent_below(double t) {
+  const double within = std::clamp(t, -1.0, 1.0);
+  return 0.5 + within - 0.5 * within * std::abs(within);
+}
+
+// The mean over a square about the unit vector d, of a variance in solid angles of the texels in
+// the middle of a face.
+glm::dvec3 mean_over_square(const PanoramaLight& light, const PyramidOptions& options,
                             const glm::dvec3& d, double variance) {
-  const int samples = options.samples;
-  const bool is_gaussian = options.is_gaussian;
-  const glm::dvec3 right =
-      glm::normalize(std::abs(d.y) < 0.9 ? glm::dvec3(d.z, 0.0, -d.x) : glm::dvec3(0.0, -d.z, d.y));
-  const glm::dvec3 down = glm::cross(d, right);
-  const double deviation =
-      std::sqrt(is_gaussian ? variance / kReachedShare : variance) * 2.0 / options.size;
-  // A disc has twice its standard deviation as radius, and half a sample's rim.
-  const double reach = deviation * (is_gaussian ? kKernelReach : 2.0 * samples / (samples - 1));
-  const double step = 2.0 * reach / samples;
-  const double radius = 2.0 * std::sqrt(deviation * deviation - kRimVariance * step * step);
-  glm::dvec3 sum(0.0);
-  double weights = 0.0;
-  for (int j = 0; j < samples; ++j) {
-    for (int i = 0; i < samples; ++i) {
-      const glm::dvec2 offset((i + 0.5) * step - reach, (j + 0.5) * step - reach);
-      const double squared = glm::dot(offset, offset);
-      const double weight = is_gaussian ? std::exp(-0.5 * squared / (deviation * deviation))
-                                        : disc_weight(radius, std::sqrt(squared), step);
-      if (weight > 0.0) sum += weight * light.sample(d + right * offset.x + down * offset.y);
-      weights += weight;
-    }
-  }
-  return sum / weights;
+  const double half = std::sqrt(3.0 * variance) * 2.0 / options.size;
+  return light.mean(d, 2.0 * std::atan2(half, 2.0 * std::hypot(d.x, d.z)), half);
 }
 
 }  // namespace
@@ -94,7 +78,7 @@ glm::dvec3 PanoramaLight::texel(int column, int row) const {
   return value;
 }
 
-glm::dvec3 PanoramaLight::sample(const glm::dvec3& d) const {
+glm::dvec2 PanoramaLight::position(const glm::dvec3& d) const {
   double turn = 0.0, polar = 0.0;
   if (as_sky_) {
     turn = sky_atan(d.x, -d.z);
@@ -103,12 +87,15 @@ glm::dvec3 PanoramaLight::sample(const glm::dvec3& d) const {
     turn = std::atan2(d.x, -d.z);
     polar = std::atan2(std::hypot(d.x, d.z), d.y);
   }
-  const int width = panorama_.width, height = panorama_.height;
   const double u = turn / (2.0 * kPi);
-  const double x = (u - std::floor(u)) * width - 0.5;
-  const double y = polar / kPi * height - 0.5;
-  const double left = std::floor(x), top = std::floor(y);
-  const double across = x - left, along = y - top;
+  return {(u - std::floor(u)) * panorama_.width - 0.5, polar / kPi * panorama_.height - 0.5};
+}
+
+glm::dvec3 PanoramaLight::sample(const glm::dvec3& d) const {
+  const int width = panorama_.width, height = panorama_.height;
+  const glm::dvec2 at = position(d);
+  const double left = std::floor(at.x), top = std::floor(at.y);
+  const double across = at.x - left, along = at.y - top;
   const int x0 = (static_cast<int>(left) + width) % width;
   const int x1 = (static_cast<int>(left) + 1) % width;
   const int y0 = std::clamp(static_cast<int>(top), 0, height - 1);
@@ -118,12 +105,32 @@ glm::dvec3 PanoramaLight::sample(const glm::dvec3& d) const {
   return glm::mix(above, below, along);
 }
 
+glm::dvec3 PanoramaLight::mean(const glm::dvec3& d, double azimuth, double polar) const {
+  const int width = panorama_.width, height = panorama_.height;
+  const glm::dvec2 at = position(d);
+  const glm::dvec2 half(azimuth / (2.0 * kPi) * width, polar / kPi * height);
+  const glm::dvec2 begin = at - half, end = at + half;
+  const auto last_row = static_cast<int>(std::ceil(end.y));
+  const auto last_column = static_cast<int>(std::ceil(end.x));
+  glm::dvec3 sum(0.0);
+  for (int y = static_cast<int>(std::floor(begin.y)); y <= last_row; ++y) {
+    const double weight_y = tent_below(end.y - y) - tent_below(begin.y - y);
+    if (!(weight_y > 0.0)) continue;
+    const int row = std::clamp(y, 0, height - 1);
+    for (int x = static_cast<int>(std::floor(begin.x)); x <= last_column; ++x) {
+      const double weight_x = tent_below(end.x - x) - tent_below(begin.x - x);
+      sum += weight_y * weight_x * texel((x + 2 * width) % width, row);
+    }
+  }
+  return sum / (4.0 * half.x * half.y);
+}
+
 glm::dvec3 level_0_texel(const PanoramaLight& light, const PyramidOptions& options, int face,
                          int column, int row) {
   if (!(options.base_variance > 0.0)) return mean_over_texel(light, options, face, column, row);
   const glm::dvec2 p = texel_middle(column, row, options.size);
   const double shrinking = 1.0 - std::pow(1.0 + glm::dot(p, p), -1.5);
-  return mean_over_kernel(light, options, glm::normalize(face_direction(face, p)),
+  return mean_over_square(light, options, glm::normalize(face_direction(face, p)),
                           options.base_variance + kTentVariance * shrinking);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "image/panorama.h"
@@ -18,7 +19,12 @@ class PanoramaLight {
   // Bilinearly from the direction d, which need not be a unit vector.
   glm::dvec3 sample(const glm::dvec3& d) const;
 
+  // The mean of sample() within these angles to each side of d, which is exact.
+  glm::dvec3 mean(const glm::dvec3& d, double azimuth, double polar) const;
+
  private:
+  // In texels, whose middles are whole numbers.
+  glm::dvec2 position(const glm::dvec3& d) const;
   glm::dvec3 texel(int column, int row) const;
 
   const Panorama& panorama_;

@@ -172,7 +172,7 @@ Level fill_level(LightPyramid& pyramid, int size, int level, const PyramidOption
 // About the fetches that a level takes, for the progress.
 double level_cost(const PyramidOptions& options, int level) {
   const double side = options.size >> level;
-  const double samples = options.samples;
+  const double samples = options.base_variance > 0.0 ? 2.0 : options.samples;
   return side * side * (level == 0 ? 8.0 * samples * samples : 16.0 * 3.0 * options.level_variance);
 }
 
@@ -185,11 +185,10 @@ void validate(const PyramidOptions& options) {
                                 ", but must be a power of two from 1 to " +
                                 std::to_string(kMaxPyramidSize) + ".");
   }
-  const int fewest = options.base_variance > 0.0 ? 4 : 1;
-  if (options.samples < fewest || options.samples > kMaxPyramidSamples) {
+  if (options.samples < 1 || options.samples > kMaxPyramidSamples) {
     throw std::invalid_argument("samples is " + std::to_string(options.samples) +
-                                ", but must be from " + std::to_string(fewest) + " to " +
-                                std::to_string(kMaxPyramidSamples) + ".");
+                                ", but must be from 1 to " + std::to_string(kMaxPyramidSamples) +
+                                ".");
   }
   if (!(options.base_variance >= 0.0 && options.base_variance <= 16.0)) {
     throw std::invalid_argument("base_variance must be from 0 to 16.");

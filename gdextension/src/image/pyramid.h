@@ -24,7 +24,7 @@ struct PyramidOptions {
   bool is_gaussian = false;  // Whether kernels are Gaussians; discs otherwise.
   bool is_srgb = false;      // Whether the panorama holds sRGB; linear light otherwise.
   bool as_sky = false;       // Whether its texels lie where Godot's sky has them (up to ½° off).
-  int samples = 1;  // Along the side of a texel of level 0, or along its kernel's diameter.
+  int samples = 1;           // Along the side of a texel of level 0, where that is not blurred.
   double base_variance = 0.0;         // What level 0 is blurred by; 0 for nothing.
   double level_variance = 5.0 / 6.0;  // A third of what each level is blurred by, of the finer one.
   int threads = 0;                    // Zero: all cores. The light does not depend on it.

@@ -11,8 +11,8 @@ namespace lobelight {
 inline constexpr double kKernelReach = 3.0;
 // and what is left has this share of its variance per axis: 1 − R²/2 e^(−R²/2) / (1 − e^(−R²/2)).
 inline constexpr double kReachedShare = 0.94945;
-// The rim of a disc falls off linearly over one sample. In squares of it, the rim adds this much to
-// the disc's variance per axis, R²/4.
+// The rim of a disc falls off linearly over one texel of the finer level. In squares of it, the rim
+// adds this much to the disc's variance per axis, R²/4.
 inline constexpr double kRimVariance = 0.104;
 
 // The variance of the tent by which levels are looked up, in texels.

@@ -33,7 +33,7 @@ static func make_request(
 		"as_sky": as_sky,
 		"size": face_size,
 		"filter": _NAMES[filter],
-		"samples": Pyramid.count_samples(width, face_size, filter),
+		"samples": Pyramid.count_samples(width, face_size),
 		"base_variance": Pyramid.base_variance_of(width, face_size, filter),
 		"level_variance": Pyramid.LEVEL_VARIANCES[filter],
 	}

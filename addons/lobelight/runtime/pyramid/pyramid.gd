@@ -48,8 +48,6 @@ const _MAX_SAMPLES := 8
 const _BASE_SHARE := 0.5
 # The variance of the tent by which levels are looked up, in texels.
 const _TENT_VARIANCE := 1.0 / 6.0
-# Along the diameter of the kernel that level 0 is blurred with.
-const _KERNEL_SAMPLES := 8
 
 var size := 0
 var filter := Filter.DISC
@@ -104,11 +102,8 @@ static func base_variance_of(width: int, face_size: int, used_filter: Filter) ->
 	return 0.0
 
 
-## Samples along the side of a texel of level 0, or along the diameter of the kernel that it is
-## blurred with.
-static func count_samples(width: int, face_size: int, used_filter: Filter) -> int:
-	if base_variance_of(width, face_size, used_filter) > 0.0:
-		return _KERNEL_SAMPLES
+## Samples along the side of a texel of level 0, where that is not blurred.
+static func count_samples(width: int, face_size: int) -> int:
 	return clampi(ceili(width / (2.0 * face_size)), 1, _MAX_SAMPLES)
 
 
@@ -126,10 +121,9 @@ func set_up_panorama(
 		&"panorama_is_srgb": format not in LINEAR_FORMATS,
 		&"panorama_as_sky": as_sky,
 		&"face_size": face_size,
-		&"samples": count_samples(panorama.get_width(), face_size, used_filter),
+		&"samples": count_samples(panorama.get_width(), face_size),
 		&"kernel_variance": level_0_variance,
 		&"shrinking_variance": _TENT_VARIANCE,
-		&"is_gaussian": used_filter == Filter.GAUSSIAN,
 	}
 	_set_up_levels(face_size, used_filter, PanoramaShader, parameters)
 
