@@ -30,14 +30,20 @@ extends Node3D
 ## ([code]./dev bench runtime[/code]); [member update_gpu_time] and
 ## [member update_cpu_time] tell for yours. Updates allocate nothing on the GPU.
 ## [br][br]
+## [b]Baked light.[/b] What does not change when the game runs can be filtered in the editor, by
+## [i]Bake Light[/i] in the inspector, or by importing a panorama as [i]Light (Lobelight)[/i]:
+## [member light] is shown from the first drawn frame on and costs no update.
+## [br][br]
 ## There is to be one per [World3D]; a second one waits until the first has left. Hidden and waiting
 ## nodes make nothing. Each of up to four worlds shows its own light. When the node leaves, its
 ## light stays until that of the next one has been made; [member fade_time] has one fade into the
 ## other. [LobeProbe3D] has the light of rooms.
 
-## The pyramid has been made anew and the materials have it.
+## The pyramid has been made anew and the materials have it. Of a baked [member light] it tells
+## once, at the end of the frame in which the node has begun to show it.
 signal rebuilt
-## A rebuild has ended, with a pyramid or, as [method get_rebuild_error] says, without.
+## A rebuild has ended, with a pyramid or, as [method get_rebuild_error] says, without. It comes
+## after [signal rebuilt], too.
 signal rebuild_finished
 
 ## What the light is taken from.
@@ -98,6 +104,14 @@ const MAX_SIZE := 2048
 
 const _GROUP := &"_lobelight_environments"
 const _LIVE := "res://addons/lobelight/runtime/live/live_light.gd"
+# What says nothing of a baked light.
+const _OF_UPDATES: Array[StringName] = [
+	&"update_mode",
+	&"measure_cost",
+	&"update_gpu_time",
+	&"update_cpu_time",
+	&"update_frames",
+]
 
 # Counts the environments that have come, so that the first of a world can be told.
 static var _arrivals := 0
@@ -167,14 +181,23 @@ var size := 0:
 	set(value):
 		fade_time = maxf(value, 0.0) if is_finite(value) else 0.0
 
-## A light that was baked, from a panorama or a sky. The node shows it instead of its source, turned
-## by its rotation, from the first frame on; nothing is filtered when the game runs.
+## A light that was baked, see [LobeLight]. The node shows it instead of its source, from the first
+## drawn frame on, and nothing is filtered when the game runs. That of a panorama is turned by the
+## node's rotation; that of a sky or a capture stays as the world had it when it was baked, however
+## the node is turned. The properties above and those of captures say what [i]Bake Light[/i] bakes.
+## Without a light, or with one that is damaged, the node's light is live.
 @export var light: LobeLight:
 	set(value):
 		if light == value:
 			return
+		if light != null:
+			light.changed.disconnect(_show_baked)
 		light = value
+		if light != null:
+			light.changed.connect(_show_baked)
 		_show_baked()
+		notify_property_list_changed()
+		update_configuration_warnings()
 
 @export_group("Capture", "capture_")
 ## Layers of the scene that are captured.
@@ -231,8 +254,9 @@ var _settings := LightSettings.new()
 var _live: RefCounted
 # Why there is none, in a sentence.
 var _loss := ""
-# What is shown in place of it: the baked light at this node's place.
+# What is shown in place of it: the baked light at this node's place; whether the signals have told.
 var _baked: LobeLight
+var _is_baked_told := false
 
 
 func _init() -> void:
@@ -258,6 +282,7 @@ func _notification(what: int) -> void:
 			remove_from_group(_GROUP)
 			LightRegistry.withdraw(get_instance_id())
 			_settings.is_active = false
+			_is_baked_told = false
 			if _live != null:
 				_live.leave_world()
 			for other in _get_others():
@@ -280,6 +305,8 @@ func _validate_property(property: Dictionary) -> void:
 	if property.name in ["update_gpu_time", "update_cpu_time", "update_frames"]:
 		property.usage = PROPERTY_USAGE_EDITOR | PROPERTY_USAGE_READ_ONLY
 	elif property.name.begins_with("capture_") and source != Source.CAPTURE:
+		property.usage &= ~PROPERTY_USAGE_EDITOR
+	if _baked != null and property.name in _OF_UPDATES:
 		property.usage &= ~PROPERTY_USAGE_EDITOR
 
 
@@ -332,7 +359,7 @@ func get_rebuild_error() -> String:
 ## [constant CAPTURE]. Changing a property does so by itself; call it when the contents of textures
 ## have changed. It takes until the end of a frame: [code]await
 ## environment.rebuild()[/code] gives false if it could not be done, with the reason in
-## [method get_rebuild_error]. A baked [member light] is there at once.
+## [method get_rebuild_error]. A baked [member light] is there at once, and stays as it is.
 func rebuild() -> bool:
 	_load_live()
 	if _baked != null:
@@ -346,14 +373,16 @@ func rebuild() -> bool:
 func _load_live() -> void:
 	if _live != null or _baked != null:
 		return
-	var script := OnDemand.fetch(_LIVE, OnDemand.LIVE) as GDScript
-	_loss = "" if script != null else OnDemand.find_loss(_LIVE, OnDemand.LIVE)
-	if script != null:
-		_live = script.new(_settings, _on_drawn)
+	_loss = OnDemand.find_loss(_LIVE, OnDemand.LIVE)
+	# A light that is damaged has been told of by now.
+	if _loss.is_empty() or light == null:
+		var script := OnDemand.fetch(_LIVE, OnDemand.LIVE) as GDScript
+		_live = script.new(_settings, _on_drawn) if script != null else null
 
 
 func _show_baked() -> void:
 	_baked = null
+	_is_baked_told = false
 	var problem := light.get_problem() if light != null else ""
 	if problem:
 		push_error(
@@ -364,13 +393,21 @@ func _show_baked() -> void:
 		)
 	elif light != null:
 		_baked = light.at_another_place()
+		_loss = ""
 		if _live != null:
 			_live.end()
 			_live = null
-	elif is_inside_tree():
+	if _baked == null and is_inside_tree():
 		_load_live()
 	_update_placement()
 	_check_in()
+
+
+# For those who wait for the light without knowing that it is baked.
+func _tell_of_baked() -> void:
+	if _baked != null:
+		rebuilt.emit()
+		rebuild_finished.emit()
 
 
 func _mark_stale() -> void:
@@ -408,6 +445,9 @@ func _check_in() -> void:
 	var shown := get_light()
 	if _settings.is_active and shown != null:
 		LightRegistry.offer(get_world_3d(), get_instance_id(), shown, fade_time)
+		if _baked != null and not _is_baked_told:
+			_is_baked_told = true
+			_tell_of_baked.call_deferred()
 		return
 	LightRegistry.withdraw(get_instance_id())
 	# The old light stays until this one has been made.
@@ -417,8 +457,7 @@ func _check_in() -> void:
 
 func _update_placement() -> void:
 	if _baked != null:
-		_baked.energy = energy
-		_baked.rotation = (global_basis if is_inside_tree() else basis).orthonormalized()
+		_baked.place(global_basis if is_inside_tree() else basis, energy)
 		LightRegistry.update_placement(_baked)
 	elif _live != null and _live.place():
 		LightRegistry.update_placement(_live.light)

@@ -13,6 +13,8 @@ const _LEAST_COMPONENT := 0.57735027
 const _FACES := 6
 # Of the saved form; others are refused.
 const _VERSION := 1
+# Of what is saved as single floats.
+const _ROUNDING := 1e-3
 
 ## The form of what is saved.
 @export_storage var version := _VERSION
@@ -22,6 +24,7 @@ const _VERSION := 1
 	set(value):
 		faces = value
 		cubemap = null
+		emit_changed()
 ## Texels along the side of a face.
 @export_storage var size := 1
 ## How much the levels blur: c in shaders/environment.gdshaderinc; at first that of 2 × 2 means.
@@ -31,6 +34,18 @@ const _VERSION := 1
 ## Whether they blur alike in all directions, rather than as the texels of the cube are stretched;
 ## if not, materials need LOBELIGHT_STRETCHED_LEVELS.
 @export_storage var is_even := false
+## From the faces to the axes of the node that shows the light; see [member is_of_world].
+@export_storage var axes := Basis.IDENTITY:
+	set(value):
+		axes = value
+		rotation = value
+## Whether [member axes] leads to the world's axes instead, as of a sky, which no node turns.
+@export_storage var is_of_world := false
+## A factor for the radiance of the faces: how bright the engine showed a sky when it was baked.
+@export_storage var base_energy := 1.0:
+	set(value):
+		base_energy = value
+		energy = value
 
 ## The cube map with all its levels. Of faces it is made when it is first asked for;
 ## [code]null[/code] while the light has no texture of its own.
@@ -89,10 +104,9 @@ func get_problem() -> String:
 		return ""
 	if faces.size() != _FACES:
 		return "The light has %d faces, not 6: bake it again." % faces.size()
-	if size < 1 or size != nearest_po2(size):
-		return "The light's faces are %d texels wide, no power of two: bake it again." % size
-	if not is_finite(level_variance) or level_variance <= 0.0 or not is_finite(base_variance):
-		return "The light does not say what its levels were blurred with: bake it again."
+	var odd := _find_odd_number()
+	if odd:
+		return odd
 	return (
 		""
 		if faces.all(_is_face)
@@ -101,6 +115,17 @@ func get_problem() -> String:
 			% size
 		)
 	)
+
+
+func _find_odd_number() -> String:
+	if size < 1 or size != nearest_po2(size):
+		return "The light's faces are %d texels wide, no power of two: bake it again." % size
+	if not is_finite(level_variance) or level_variance <= 0.0 or not is_finite(base_variance):
+		return "The light does not say what its levels were blurred with: bake it again."
+	var is_rotation := axes.is_conformal() and absf(axes.determinant() - 1.0) < _ROUNDING
+	if not is_rotation or not is_finite(base_energy) or base_energy < 0.0:
+		return "The light does not say how it lies or how bright it is: bake it again."
+	return ""
 
 
 func _is_face(face: Image) -> bool:
@@ -125,8 +150,17 @@ func at_another_place() -> LobeLight:
 	other.level_variance = level_variance
 	other.base_variance = base_variance
 	other.is_even = is_even
+	other.axes = axes
+	other.is_of_world = is_of_world
+	other.base_energy = base_energy
 	other.cubemap = cubemap
 	return other
+
+
+## Turns the light with a node of these axes, and multiplies it.
+func place(node_axes: Basis, factor: float) -> void:
+	rotation = axes if is_of_world else node_axes.orthonormalized() * axes
+	energy = base_energy * factor
 
 
 ## Hands the light to a material of the rendering server.

@@ -22,6 +22,11 @@ static func of(environment: LobeEnvironment3D, root: Node) -> PackedStringArray:
 			)
 	if environment.energy == 0.0:
 		warnings.append("Energy is 0, so LobeMaterial3Ds reflect nothing: set it to 1.")
+	if environment.light != null:
+		var problem := environment.light.get_problem()
+		if problem.is_empty():
+			return warnings
+		warnings.append("Until then the light is live. " + problem)
 	if environment.size > 0 and environment.size < _LEAST_SIZE:
 		warnings.append(
 			"Size is only %d texels, which smooth materials show: take 256." % environment.size
