@@ -33,6 +33,7 @@ KNOWS = {
     "fades": (),
     "lamps": (),
     "engine_light": ("light",),
+    "mixing": ("material", "table", "pyramid", "shaders"),
     "msdf": (),
     "parallax": (),
     "triplanar": (),

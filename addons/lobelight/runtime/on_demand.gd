@@ -11,6 +11,7 @@ const PLACES := "probes and lights of several worlds"
 const ANTIALIASING := "antialiasing of reflections"
 const CONVERSION := "conversion between materials"
 const RENDERING_DEVICE := "the renderers Forward+ and Mobile"
+const MIXING := "widths of anisotropic materials that change"
 const ENGINE_LIGHT := "diffuse light of the engine"
 const COMPATIBILITY := "the renderer Compatibility"
 

@@ -38,6 +38,7 @@ const FOLDERS: Dictionary[String, String] = {
 	"fades": FADES,
 	"engine_light": OnDemand.ENGINE_LIGHT,
 	"filters": OnDemand.FILTERS,
+	"mixing": OnDemand.MIXING,
 	"occlusion": OCCLUSION,
 	"msdf": MSDF,
 	"parallax": PARALLAX,
@@ -77,6 +78,7 @@ const _WORDS: Dictionary[String, String] = {
 	OnDemand.ENGINE_LIGHT:
 	"diffuse_light|sdfgi_enabled|ssao_enabled|ssil_enabled|VoxelGI|LightmapGI|ReflectionProbe",
 	OnDemand.FILTERS: "filter",
+	OnDemand.MIXING: "roughness|anisotropy",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
 	OnDemand.LIVE: "source|panorama|LobeEnvironment3D",
 	GLTF: "LobeGLTFExtension",
@@ -101,6 +103,7 @@ const _OF_MATERIALS: PackedStringArray = [
 	FADES,
 	LAMPS,
 	MSDF,
+	OnDemand.MIXING,
 	OCCLUSION,
 	PARALLAX,
 	SHEEN,

@@ -3,6 +3,8 @@ extends Object
 ## Hands the rendering server where a [LobeMaterial3D]'s textures lie and where its vertices go: the
 ## uniforms that go with coordinate_defines.gd.
 
+const Numbers := preload("surface_numbers.gd")
+
 
 static func apply(surface: LobeBaseMaterial3D) -> void:
 	_apply_layer(surface, "lobelight_uv", surface.uv1_scale, surface.uv1_offset)
@@ -24,12 +26,11 @@ static func _apply_layer(
 	surface: LobeBaseMaterial3D, name: String, scale: Vector3, offset: Vector3
 ) -> void:
 	if scale != Vector3.ONE or offset != Vector3.ZERO:
-		_give(surface, name + "_transform", Vector4(scale.x, scale.y, offset.x, offset.y))
+		_give(surface, name + "_transform", Numbers.transform(scale, offset))
 
 
 static func _apply_relief(surface: LobeBaseMaterial3D) -> void:
-	# Godot's own unit.
-	_give(surface, &"lobelight_relief", 0.01 * surface.heightmap_scale)
+	_give(surface, &"lobelight_relief", Numbers.relief(surface.heightmap_scale))
 	var depth := Vector2(0.0, 1.0) if surface.heightmap_flip_texture else Vector2(1.0, -1.0)
 	_give(surface, &"lobelight_depth_of_texel", depth)
 	var flip := Vector2(surface.heightmap_flip_tangent, surface.heightmap_flip_binormal)
@@ -51,8 +52,7 @@ static func _apply_vertices(surface: LobeBaseMaterial3D) -> void:
 	if surface.use_z_clip_scale:
 		_give(surface, &"lobelight_z_clip_scale", surface.z_clip_scale)
 	if surface.use_fov_override:
-		var half := deg_to_rad(0.5 * surface.fov_override)
-		_give(surface, &"lobelight_fov_cotangent", 1.0 / tan(half))
+		_give(surface, &"lobelight_fov_cotangent", Numbers.cotangent(surface.fov_override))
 
 
 static func _give(surface: LobeBaseMaterial3D, name: StringName, value: Variant) -> void:

@@ -44,7 +44,7 @@ const _STENCIL_FLAGS := "Read,Write,Write Depth Fail"
 const _STENCIL_COMPARISONS := "Always,Less,Equal,Less Or Equal,Greater,Not Equal,Greater Or Equal"
 const _PHYSICAL_UNITS := "rendering/lights_and_shadows/use_physical_light_units"
 
-const Parts := preload("surface_parts.gd")
+const Numbers := preload("surface_numbers.gd")
 const StencilPass := preload("stencil_pass.gd")
 const Widths := preload("../table/widths.gd")
 
@@ -78,15 +78,15 @@ var transparency: BaseMaterial3D.Transparency = BaseMaterial3D.TRANSPARENCY_DISA
 ## What is less opaque is not drawn.
 @export_range(0.0, 1.0, 0.001) var alpha_scissor_threshold := 0.5:
 	set(value):
-		var before := alpha_scissor_threshold
-		alpha_scissor_threshold = value
-		_queue_number(Parts.FADES, before, alpha_scissor_threshold)
+		if value != alpha_scissor_threshold:
+			alpha_scissor_threshold = value
+			_send(&"lobelight_alpha_scissor_threshold", value)
 ## The size of the grain.
 @export_range(0.0, 2.0, 0.01) var alpha_hash_scale := 1.0:
 	set(value):
-		var before := alpha_hash_scale
-		alpha_hash_scale = value
-		_queue_number(Parts.FADES, before, alpha_hash_scale)
+		if value != alpha_hash_scale:
+			alpha_hash_scale = value
+			_send(&"lobelight_alpha_hash_scale", value)
 ## Smooth edges for alpha scissor and alpha hash, where the viewport has MSAA.
 @export_custom(PROPERTY_HINT_ENUM, _ALPHA_ANTIALIASINGS)
 var alpha_antialiasing_mode: BaseMaterial3D.AlphaAntiAliasing = (
@@ -99,9 +99,9 @@ var alpha_antialiasing_mode: BaseMaterial3D.AlphaAntiAliasing = (
 ## How far above the threshold the smooth edge reaches.
 @export_range(0.0, 1.0, 0.01) var alpha_antialiasing_edge := 0.3:
 	set(value):
-		var before := alpha_antialiasing_edge
-		alpha_antialiasing_edge = value
-		_queue_number(Parts.FADES, before, alpha_antialiasing_edge)
+		if value != alpha_antialiasing_edge:
+			alpha_antialiasing_edge = value
+			_send(&"lobelight_alpha_edge", value)
 ## How the surface is blended with what is behind it.
 @export_custom(PROPERTY_HINT_ENUM, _BLEND_MODES)
 var blend_mode: BaseMaterial3D.BlendMode = BaseMaterial3D.BLEND_MODE_MIX:
@@ -195,9 +195,10 @@ var specular_mode: BaseMaterial3D.SpecularMode = BaseMaterial3D.SPECULAR_SCHLICK
 ## [member transparency].
 @export var albedo_color := Color.WHITE:
 	set(value):
-		albedo_color = value
-		_update_albedo()
-		emit_changed()
+		if value != albedo_color:
+			var before := albedo_color
+			albedo_color = value
+			_update_albedo(before)
 ## Multiplied with [member albedo_color].
 @export var albedo_texture: Texture2D:
 	set(value):
@@ -228,16 +229,20 @@ var specular_mode: BaseMaterial3D.SpecularMode = BaseMaterial3D.SPECULAR_SCHLICK
 ## 1 for metals, 0 for everything else. Pure metals cost less, as they have no diffuse light.
 @export_range(0.0, 1.0, 0.01) var metallic := 0.0:
 	set(value):
-		var before := metallic
-		metallic = clampf(value, 0.0, 1.0)
-		_queue_number(Parts.METAL, before, metallic)
+		value = clampf(value, 0.0, 1.0)
+		if value != metallic:
+			var before := metallic
+			metallic = value
+			_update_metallic(before)
 ## How much light is reflected by what is no metal: 16 % of the square, so that 0.5 is the 4 % of
 ## plastic and glass.
 @export_range(0.0, 1.0, 0.01) var metallic_specular := 0.5:
 	set(value):
-		var before := metallic_specular
-		metallic_specular = clampf(value, 0.0, 1.0)
-		_queue_number(Parts.METAL, before, metallic_specular)
+		value = clampf(value, 0.0, 1.0)
+		if value != metallic_specular:
+			metallic_specular = value
+			_send(&"lobelight_specular_amount", value)
+			_send(&"lobelight_dielectric", Numbers.dielectric(value))
 ## A factor of [member metallic].
 @export var metallic_texture: Texture2D:
 	set(value):
@@ -254,9 +259,10 @@ var metallic_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEX
 ## From 0, nearly a mirror, to 1. [method LobeMaterial3D.widths_of] tells what it does.
 @export_range(0.0, 1.0, 0.001) var roughness := 1.0:
 	set(value):
-		var before := roughness
-		roughness = clampf(value, 0.0, 1.0)
-		_queue_number(Parts.TABLE, before, roughness)
+		value = clampf(value, 0.0, 1.0)
+		if value != roughness:
+			roughness = value
+			_update_widths()
 ## A factor of [member roughness]. With it, tables are looked up for each pixel: as many fetches as
 ## without where the material is not anisotropic, otherwise twice as many. The widths of [member
 ## LobeMaterial3D.table_set] must grow by equal factors for it, as those of the ready sets do, and
@@ -282,22 +288,27 @@ var roughness_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TE
 ## The light that it sends out.
 @export_color_no_alpha var emission := Color.BLACK:
 	set(value):
-		var before := emission
-		emission = value
-		_queue_number(Parts.EMISSION, before, emission)
+		if value != emission:
+			var was_dark := emission.r == 0.0 and emission.g == 0.0 and emission.b == 0.0
+			emission = value
+			if was_dark or value.r == 0.0 and value.g == 0.0 and value.b == 0.0:
+				_queue_update()
+			elif emission_enabled:
+				_send_emission()
 ## A factor for [member emission] and its texture.
 @export_range(0.0, 16.0, 0.01, "or_greater") var emission_energy_multiplier := 1.0:
 	set(value):
-		var before := emission_energy_multiplier
-		emission_energy_multiplier = value
-		_queue_number(Parts.EMISSION, before, emission_energy_multiplier)
+		if value != emission_energy_multiplier:
+			var before := emission_energy_multiplier
+			emission_energy_multiplier = value
+			_update_emission_energy((before == 0.0) != (value == 0.0))
 ## What [member emission] is in nits, with physical light units; [member
 ## emission_energy_multiplier] is a factor of it. Without such units it does not count.
 @export_range(0.0, 100000.0, 0.01, "or_greater", "suffix:nt") var emission_intensity := 1000.0:
 	set(value):
-		var before := emission_intensity
-		emission_intensity = value
-		_queue_number(Parts.EMISSION, before, emission_intensity)
+		if value != emission_intensity:
+			emission_intensity = value
+			_update_emission_energy(false)
 ## Whether [member emission_texture] is added to or multiplied with [member emission].
 @export_custom(PROPERTY_HINT_ENUM, _OPERATORS)
 var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION_OP_ADD:
@@ -324,9 +335,9 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 ## The strength of the normal map.
 @export_range(-16.0, 16.0, 0.01) var normal_scale := 1.0:
 	set(value):
-		var before := normal_scale
-		normal_scale = value
-		_queue_number(Parts.TEXTURES, before, normal_scale)
+		if value != normal_scale:
+			normal_scale = value
+			_send(&"lobelight_normal_scale", value if normal_enabled else 1.0)
 ## A tangent-space normal map.
 @export var normal_texture: Texture2D:
 	set(value):
@@ -369,15 +380,15 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 ## The strength of the rim.
 @export_range(0.0, 1.0, 0.01) var rim := 1.0:
 	set(value):
-		var before := rim
-		rim = value
-		_queue_number(Parts.LAMPS, before, rim)
+		if value != rim:
+			rim = value
+			_send(&"lobelight_rim_amount", Vector2(rim, rim_tint))
 ## How far the rim goes from white to [member albedo_color].
 @export_range(0.0, 1.0, 0.01) var rim_tint := 0.5:
 	set(value):
-		var before := rim_tint
-		rim_tint = value
-		_queue_number(Parts.LAMPS, before, rim_tint)
+		if value != rim_tint:
+			rim_tint = value
+			_send(&"lobelight_rim_amount", Vector2(rim, rim_tint))
 ## Factors of [member rim] in red and of [member rim_tint] in green.
 @export var rim_texture: Texture2D:
 	set(value):
@@ -394,15 +405,18 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 ## The strength of the lacquer.
 @export_range(0.0, 1.0, 0.01) var clearcoat := 1.0:
 	set(value):
-		var before := clearcoat
-		clearcoat = clampf(value, 0.0, 1.0)
-		_queue_number(Parts.TABLE, before, clearcoat)
+		value = clampf(value, 0.0, 1.0)
+		if value != clearcoat:
+			var before := clearcoat
+			clearcoat = value
+			_update_coat_amount((before == 0.0) != (value == 0.0))
 ## The lacquer's roughness: its width is between 0.001 and 0.1.
 @export_range(0.0, 1.0, 0.01) var clearcoat_roughness := 0.5:
 	set(value):
-		var before := clearcoat_roughness
-		clearcoat_roughness = clampf(value, 0.0, 1.0)
-		_queue_number(Parts.TABLE, before, clearcoat_roughness)
+		value = clampf(value, 0.0, 1.0)
+		if value != clearcoat_roughness:
+			clearcoat_roughness = value
+			_queue_look()
 ## Factors of [member clearcoat] in red and of [member clearcoat_roughness] in green, the latter for
 ## the engine's own lights only.
 @export var clearcoat_texture: Texture2D:
@@ -421,9 +435,10 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 ## The colour of the fibres.
 @export_color_no_alpha var sheen_color := Color.WHITE:
 	set(value):
-		var before := sheen_color
-		sheen_color = value
-		_queue_number(Parts.TABLE, before, sheen_color)
+		if value != sheen_color:
+			var before := sheen_color
+			sheen_color = value
+			_update_sheen_tint(_is_dark(before) != _is_dark(value))
 ## Multiplied with [member sheen_color].
 @export var sheen_texture: Texture2D:
 	set(value):
@@ -433,9 +448,10 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 ## taken for 0.2.
 @export_range(0.0, 1.0, 0.01) var sheen_roughness := 0.5:
 	set(value):
-		var before := sheen_roughness
-		sheen_roughness = clampf(value, 0.0, 1.0)
-		_queue_number(Parts.TABLE, before, sheen_roughness)
+		value = clampf(value, 0.0, 1.0)
+		if value != sheen_roughness:
+			sheen_roughness = value
+			_queue_look()
 
 @export_group("Anisotropy", "anisotropy_")
 ## Whether highlights are wider along the tangent than across, as on brushed metal. Meshes need
@@ -449,9 +465,11 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 ## at 1.1.
 @export_range(-1.0, 1.1, 0.001) var anisotropy := 0.0:
 	set(value):
-		var before := anisotropy
-		anisotropy = clampf(value, -1.0, Widths.MAX_ANISOTROPY)
-		_queue_number(Parts.TABLE, before, anisotropy)
+		value = clampf(value, -1.0, Widths.MAX_ANISOTROPY)
+		if value != anisotropy:
+			anisotropy = value
+			if anisotropy_enabled:
+				_update_widths()
 ## Where the tangent of the lobes points: red and green are the direction, alpha a factor of [member
 ## anisotropy]. It has no say where the anisotropy is negative. Without an alpha channel it does not
 ## cost more fetches.
@@ -463,9 +481,10 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 ## width is measured; added to that of [member anisotropy_flowmap]. [BaseMaterial3D] has none.
 @export_range(-180.0, 180.0, 0.1, "radians_as_degrees") var anisotropy_rotation := 0.0:
 	set(value):
-		var before := anisotropy_rotation
-		anisotropy_rotation = value
-		_queue_number(Parts.TABLE, before, anisotropy_rotation)
+		if value != anisotropy_rotation:
+			var before := anisotropy_rotation
+			anisotropy_rotation = value
+			_update_rotation((before == 0.0) != (value == 0.0))
 
 @export_group("Ambient Occlusion", "ao_")
 ## Whether [member ao_texture], or the red channel of [member orm_texture], darkens the light of the
@@ -477,9 +496,9 @@ var emission_operator: BaseMaterial3D.EmissionOperator = BaseMaterial3D.EMISSION
 ## How much the occlusion darkens the engine's own lights.
 @export_range(0.0, 1.0, 0.01) var ao_light_affect := 0.0:
 	set(value):
-		var before := ao_light_affect
-		ao_light_affect = value
-		_queue_number(Parts.TEXTURES, before, ao_light_affect)
+		if value != ao_light_affect:
+			ao_light_affect = value
+			_send(&"lobelight_ao_light_affect", value)
 ## The share of the surroundings that the surface sees. Reflections are occluded by it as well, see
 ## [member disable_specular_occlusion].
 @export var ao_texture: Texture2D:
@@ -508,9 +527,9 @@ var ao_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_C
 ## How deep the relief is, in hundredths of the texture's breadth.
 @export_range(-16.0, 16.0, 0.001) var heightmap_scale := 5.0:
 	set(value):
-		var before := heightmap_scale
-		heightmap_scale = value
-		_queue_number(Parts.COORDINATES, before, heightmap_scale)
+		if value != heightmap_scale:
+			heightmap_scale = value
+			_send(&"lobelight_relief", Numbers.relief(value))
 ## Whether the view is followed through the relief, layer by layer, so that high places cover low
 ## ones. It costs a fetch a layer.
 @export var heightmap_deep_parallax := false:
@@ -560,9 +579,9 @@ var ao_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_C
 ## The strength of the spread.
 @export_range(0.0, 1.0, 0.01) var subsurf_scatter_strength := 0.0:
 	set(value):
-		var before := subsurf_scatter_strength
-		subsurf_scatter_strength = value
-		_queue_number(Parts.LAMPS, before, subsurf_scatter_strength)
+		if value != subsurf_scatter_strength:
+			subsurf_scatter_strength = value
+			_send(&"lobelight_scattering", value)
 ## Whether it spreads as in skin.
 @export var subsurf_scatter_skin_mode := false:
 	set(value):
@@ -584,9 +603,9 @@ var ao_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_C
 ## The colour of what shines through.
 @export var subsurf_scatter_transmittance_color := Color.WHITE:
 	set(value):
-		var before := subsurf_scatter_transmittance_color
-		subsurf_scatter_transmittance_color = value
-		_queue_number(Parts.LAMPS, before, subsurf_scatter_transmittance_color)
+		if value != subsurf_scatter_transmittance_color:
+			subsurf_scatter_transmittance_color = value
+			_send(&"lobelight_transmitted", value)
 ## A factor of [member subsurf_scatter_transmittance_color].
 @export var subsurf_scatter_transmittance_texture: Texture2D:
 	set(value):
@@ -595,15 +614,15 @@ var ao_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_C
 ## The depth to which lamps shine through.
 @export_range(0.001, 8.0, 0.001, "or_greater") var subsurf_scatter_transmittance_depth := 0.1:
 	set(value):
-		var before := subsurf_scatter_transmittance_depth
-		subsurf_scatter_transmittance_depth = value
-		_queue_number(Parts.LAMPS, before, subsurf_scatter_transmittance_depth)
+		if value != subsurf_scatter_transmittance_depth:
+			subsurf_scatter_transmittance_depth = value
+			_update_transmittance()
 ## Makes what shines through brighter.
 @export_range(0.0, 1.0, 0.01) var subsurf_scatter_transmittance_boost := 0.0:
 	set(value):
-		var before := subsurf_scatter_transmittance_boost
-		subsurf_scatter_transmittance_boost = value
-		_queue_number(Parts.LAMPS, before, subsurf_scatter_transmittance_boost)
+		if value != subsurf_scatter_transmittance_boost:
+			subsurf_scatter_transmittance_boost = value
+			_update_transmittance()
 
 @export_group("Back Lighting", "backlight_")
 ## Whether lamps behind the surface shine through it, as through a leaf.
@@ -614,9 +633,9 @@ var ao_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_C
 ## The colour of what shines through.
 @export_color_no_alpha var backlight := Color.BLACK:
 	set(value):
-		var before := backlight
-		backlight = value
-		_queue_number(Parts.LAMPS, before, backlight)
+		if value != backlight:
+			backlight = value
+			_send(&"lobelight_backlight", value)
 ## Added to [member backlight].
 @export var backlight_texture: Texture2D:
 	set(value):
@@ -633,9 +652,9 @@ var ao_texture_channel: BaseMaterial3D.TextureChannel = BaseMaterial3D.TEXTURE_C
 ## How much is bent.
 @export_range(-1.0, 1.0, 0.01) var refraction_scale := 0.05:
 	set(value):
-		var before := refraction_scale
-		refraction_scale = value
-		_queue_number(Parts.FADES, before, refraction_scale)
+		if value != refraction_scale:
+			refraction_scale = value
+			_send(&"lobelight_refraction", value)
 ## A factor of [member refraction_scale].
 @export var refraction_texture: Texture2D:
 	set(value):
@@ -689,15 +708,17 @@ var detail_uv_layer: BaseMaterial3D.DetailUV = BaseMaterial3D.DETAIL_UV_1:
 ## A factor for the texture coordinates. The third is for [member uv1_triplanar].
 @export_custom(PROPERTY_HINT_LINK, "") var uv1_scale := Vector3.ONE:
 	set(value):
-		var before := uv1_scale
-		uv1_scale = value
-		_queue_number(Parts.COORDINATES, before, uv1_scale)
+		if value != uv1_scale:
+			var is_other := value == Vector3.ONE or uv1_scale == Vector3.ONE
+			uv1_scale = value
+			_update_uv1(is_other)
 ## Added to the texture coordinates after their scale. The third is for [member uv1_triplanar].
 @export var uv1_offset := Vector3.ZERO:
 	set(value):
-		var before := uv1_offset
-		uv1_offset = value
-		_queue_number(Parts.COORDINATES, before, uv1_offset)
+		if value != uv1_offset:
+			var is_other := value == Vector3.ZERO or uv1_offset == Vector3.ZERO
+			uv1_offset = value
+			_update_uv1(is_other)
 ## Whether textures are laid on the surface along its three axes, and mixed by the normal, in place
 ## of by texture coordinates. It costs three fetches for one, and gives meshes tangents of its own.
 @export var uv1_triplanar := false:
@@ -708,9 +729,9 @@ var detail_uv_layer: BaseMaterial3D.DetailUV = BaseMaterial3D.DETAIL_UV_1:
 ## How quickly the three change into one another.
 @export_exp_easing var uv1_triplanar_sharpness := 1.0:
 	set(value):
-		var before := uv1_triplanar_sharpness
-		uv1_triplanar_sharpness = value
-		_queue_number(Parts.COORDINATES, before, uv1_triplanar_sharpness)
+		if value != uv1_triplanar_sharpness:
+			uv1_triplanar_sharpness = value
+			_send(&"lobelight_uv1_sharpness", value)
 ## Whether the three axes are the world's.
 @export var uv1_world_triplanar := false:
 	set(value):
@@ -722,15 +743,17 @@ var detail_uv_layer: BaseMaterial3D.DetailUV = BaseMaterial3D.DETAIL_UV_1:
 ## [member detail_uv_layer] is the second, and with [member uv2_triplanar].
 @export_custom(PROPERTY_HINT_LINK, "") var uv2_scale := Vector3.ONE:
 	set(value):
-		var before := uv2_scale
-		uv2_scale = value
-		_queue_number(Parts.COORDINATES, before, uv2_scale)
+		if value != uv2_scale:
+			var is_other := value == Vector3.ONE or uv2_scale == Vector3.ONE
+			uv2_scale = value
+			_update_uv2(is_other)
 ## Added to the second texture coordinates after their scale, where that has an effect.
 @export var uv2_offset := Vector3.ZERO:
 	set(value):
-		var before := uv2_offset
-		uv2_offset = value
-		_queue_number(Parts.COORDINATES, before, uv2_offset)
+		if value != uv2_offset:
+			var is_other := value == Vector3.ZERO or uv2_offset == Vector3.ZERO
+			uv2_offset = value
+			_update_uv2(is_other)
 ## The same as [member uv1_triplanar] for textures on the second texture coordinates.
 @export var uv2_triplanar := false:
 	set(value):
@@ -740,9 +763,9 @@ var detail_uv_layer: BaseMaterial3D.DetailUV = BaseMaterial3D.DETAIL_UV_1:
 ## How quickly the three change into one another.
 @export_exp_easing var uv2_triplanar_sharpness := 1.0:
 	set(value):
-		var before := uv2_triplanar_sharpness
-		uv2_triplanar_sharpness = value
-		_queue_number(Parts.COORDINATES, before, uv2_triplanar_sharpness)
+		if value != uv2_triplanar_sharpness:
+			uv2_triplanar_sharpness = value
+			_send(&"lobelight_uv2_sharpness", value)
 ## Whether the three axes are the world's.
 @export var uv2_world_triplanar := false:
 	set(value):
@@ -816,9 +839,9 @@ var billboard_mode: BaseMaterial3D.BillboardMode = BaseMaterial3D.BILLBOARD_DISA
 ## How far they move.
 @export_range(-16.0, 16.0, 0.001, "suffix:m") var grow_amount := 0.0:
 	set(value):
-		var before := grow_amount
-		grow_amount = value
-		_queue_number(Parts.COORDINATES, before, grow_amount)
+		if value != grow_amount:
+			grow_amount = value
+			_send(&"lobelight_grow_amount", value)
 
 @export_group("Transform")
 ## Whether the object has the same size on the screen, however far away it is.
@@ -835,9 +858,9 @@ var billboard_mode: BaseMaterial3D.BillboardMode = BaseMaterial3D.BILLBOARD_DISA
 ## The size of points.
 @export_range(0.1, 128.0, 0.1, "suffix:px") var point_size := 1.0:
 	set(value):
-		var before := point_size
-		point_size = value
-		_queue_number(Parts.COORDINATES, before, point_size)
+		if value != point_size:
+			point_size = value
+			_send(&"lobelight_point_size", value)
 ## For particles with trails.
 @export var use_particle_trails := false:
 	set(value):
@@ -853,9 +876,9 @@ var billboard_mode: BaseMaterial3D.BillboardMode = BaseMaterial3D.BILLBOARD_DISA
 ## effects of the screen do not follow it.
 @export_range(0.01, 1.0, 0.01) var z_clip_scale := 1.0:
 	set(value):
-		var before := z_clip_scale
-		z_clip_scale = value
-		_queue_number(Parts.COORDINATES, before, z_clip_scale)
+		if value != z_clip_scale:
+			z_clip_scale = value
+			_send(&"lobelight_z_clip_scale", value)
 ## Whether [member fov_override] stands in for the camera's field of view.
 @export var use_fov_override := false:
 	set(value):
@@ -865,9 +888,9 @@ var billboard_mode: BaseMaterial3D.BillboardMode = BaseMaterial3D.BILLBOARD_DISA
 ## The field of view that the object is drawn with.
 @export_range(1.0, 179.0, 0.1, "degrees") var fov_override := 75.0:
 	set(value):
-		var before := fov_override
-		fov_override = value
-		_queue_number(Parts.COORDINATES, before, fov_override)
+		if value != fov_override:
+			fov_override = value
+			_send(&"lobelight_fov_cotangent", Numbers.cotangent(value))
 
 @export_group("Proximity Fade", "proximity_fade_")
 ## Whether the surface fades out where it comes close to what is behind it.
@@ -879,23 +902,23 @@ var billboard_mode: BaseMaterial3D.BillboardMode = BaseMaterial3D.BILLBOARD_DISA
 ## The distance over which it fades.
 @export_range(0.01, 4096.0, 0.01, "suffix:m") var proximity_fade_distance := 1.0:
 	set(value):
-		var before := proximity_fade_distance
-		proximity_fade_distance = value
-		_queue_number(Parts.FADES, before, proximity_fade_distance)
+		if value != proximity_fade_distance:
+			proximity_fade_distance = value
+			_send(&"lobelight_proximity", value)
 
 @export_group("MSDF", "msdf_")
 ## The breadth of the field around outlines, in texels.
 @export_range(1.0, 100.0, 1.0) var msdf_pixel_range := 4.0:
 	set(value):
-		var before := msdf_pixel_range
-		msdf_pixel_range = value
-		_queue_number(Parts.TEXTURES, before, msdf_pixel_range)
+		if value != msdf_pixel_range:
+			msdf_pixel_range = value
+			_send(&"lobelight_msdf_range", value)
 ## The breadth of an outline, in texels.
 @export_range(0.0, 250.0, 1.0) var msdf_outline_size := 0.0:
 	set(value):
-		var before := msdf_outline_size
-		msdf_outline_size = value
-		_queue_number(Parts.TEXTURES, before, msdf_outline_size)
+		if value != msdf_outline_size:
+			msdf_outline_size = value
+			_send(&"lobelight_msdf_outline", value)
 
 @export_group("Distance Fade", "distance_fade_")
 ## Whether and how the surface fades with its distance from the camera.
@@ -908,16 +931,16 @@ var distance_fade_mode: BaseMaterial3D.DistanceFadeMode = BaseMaterial3D.DISTANC
 ## The distance at which nothing is seen of the surface.
 @export_range(0.0, 4096.0, 0.01, "suffix:m") var distance_fade_min_distance := 0.0:
 	set(value):
-		var before := distance_fade_min_distance
-		distance_fade_min_distance = value
-		_queue_number(Parts.FADES, before, distance_fade_min_distance)
+		if value != distance_fade_min_distance:
+			distance_fade_min_distance = value
+			_update_fade_limits()
 ## The distance at which all is seen of the surface. Where it is the smaller one, the surface fades
 ## as it goes away.
 @export_range(0.0, 4096.0, 0.01, "suffix:m") var distance_fade_max_distance := 10.0:
 	set(value):
-		var before := distance_fade_max_distance
-		distance_fade_max_distance = value
-		_queue_number(Parts.FADES, before, distance_fade_max_distance)
+		if value != distance_fade_max_distance:
+			distance_fade_max_distance = value
+			_update_fade_limits()
 
 @export_group("Stencil", "stencil_")
 ## An effect with the stencil buffer. Outline and X-Ray put a material of their own before [member
@@ -965,6 +988,15 @@ var stencil_compare: BaseMaterial3D.StencilCompare = BaseMaterial3D.STENCIL_COMP
 		_hand_on_stencil()
 		_queue_update()
 
+# Kept, because the object is no longer whole when it is told of its end.
+var _rid := get_rid()
+# Whether everything will be handed on anew.
+var _awaits_update := false
+# Whether light is measured in physical units, as of the last update.
+var _is_physical := false
+# Materials may be made, changed and looked at on several threads.
+var _mutex := Mutex.new()
+
 
 ## Whether the albedo texture is a distance field.
 func shows_msdf() -> bool:
@@ -980,10 +1012,9 @@ func is_dielectric() -> bool:
 func emits() -> bool:
 	if not emission_enabled or emission_energy_multiplier == 0.0:
 		return false
-	var is_dark := emission.r == 0.0 and emission.g == 0.0 and emission.b == 0.0
-	if emission_texture == null:
-		return not is_dark
-	return not is_dark or emission_operator == BaseMaterial3D.EMISSION_OP_ADD
+	if not _is_dark(emission):
+		return true
+	return emission_texture != null and emission_operator == BaseMaterial3D.EMISSION_OP_ADD
 
 
 ## Whether the light of the surroundings comes from the environment and the probes.
@@ -994,6 +1025,15 @@ func is_lit_by_surroundings() -> bool:
 ## Whether no light matters.
 func is_unshaded() -> bool:
 	return shading_mode == BaseMaterial3D.SHADING_MODE_UNSHADED
+
+
+## The light that it sends out, and the factor of its texture's.
+func get_emitted() -> PackedVector3Array:
+	var energy := emission_energy_multiplier
+	if _is_physical:
+		energy *= emission_intensity
+	var multiplies := emission_operator == BaseMaterial3D.EMISSION_OP_MULTIPLY
+	return Numbers.emitted(emission, energy, multiplies and emission_texture != null)
 
 
 ## Whether the surface needs an opacity.
@@ -1129,29 +1169,109 @@ func _hand_on_stencil() -> void:
 	StencilPass.hand_on(self, stencil_reference, stencil_color, stencil_outline_thickness)
 
 
-# A number has changed. Numbers that turn something off, and those that turn it on again, may be a
-# case for another shader.
-func _queue_number(part: int, before: Variant, after: Variant) -> void:
-	if _is_plain(before) and _is_plain(after):
-		_queue_part(part)
-	else:
+# One parameter of the shader, at once. It may be none of the shader's at the moment.
+func _send(name: StringName, value: Variant) -> void:
+	# Under the lock, so that an update under way on another thread does not put the old number back.
+	_mutex.lock()
+	if not _awaits_update:
+		RenderingServer.material_set_param(_rid, name, value)
+	_mutex.unlock()
+
+
+func _update_albedo(before: Color) -> void:
+	_send(&"lobelight_albedo", Numbers.linear(albedo_color))
+	if before.a != albedo_color.a:
+		_send(&"lobelight_alpha", albedo_color.a)
+
+
+func _update_metallic(before: float) -> void:
+	# At both ends something is left out of the shader.
+	if before == 0.0 or before == 1.0 or metallic == 0.0 or metallic == 1.0:
 		_queue_update()
+	else:
+		_send(&"lobelight_metallic", metallic)
 
 
-static func _is_plain(number: Variant) -> bool:
-	if number is float:
-		return number != 0.0 and number != 1.0
-	if number is Vector3:
-		return number != Vector3.ZERO and number != Vector3.ONE
-	var colour: Color = number
-	return colour.r != 0.0 or colour.g != 0.0 or colour.b != 0.0
+func _update_emission_energy(is_other_shader: bool) -> void:
+	if is_other_shader:
+		_queue_update()
+	elif emission_enabled:
+		_send_emission()
+		_send(&"lobelight_emission_factor", get_emitted()[1])
+
+
+# The texture's factor is the light itself where the two are multiplied.
+func _send_emission() -> void:
+	var light := emission.srgb_to_linear() * emission_energy_multiplier
+	if _is_physical:
+		light *= emission_intensity
+	var multiplies := emission_operator == BaseMaterial3D.EMISSION_OP_MULTIPLY
+	if multiplies and emission_texture != null:
+		_send(&"lobelight_emission_factor", Vector3(light.r, light.g, light.b))
+	else:
+		_send(&"lobelight_emitted", Vector3(light.r, light.g, light.b))
+
+
+func _update_coat_amount(is_other_shader: bool) -> void:
+	if is_other_shader:
+		_queue_update()
+	else:
+		_send(&"lobelight_coat_amount", Vector2(clearcoat, clearcoat_roughness))
+
+
+func _update_sheen_tint(is_other_shader: bool) -> void:
+	if is_other_shader:
+		_queue_update()
+	else:
+		_send(&"lobelight_sheen_tint", Numbers.linear(sheen_color))
+
+
+func _update_rotation(is_other_shader: bool) -> void:
+	# The axes of a negative anisotropy are exchanged where it is turned.
+	if is_other_shader or get_shown_anisotropy() < 0.0:
+		_queue_look()
+	else:
+		_send(&"lobelight_anisotropy_turn", Vector2.from_angle(anisotropy_rotation))
+
+
+func _update_uv1(may_be_other_shader: bool) -> void:
+	if may_be_other_shader:
+		_queue_update()
+		return
+	_send(&"lobelight_uv_transform", Numbers.transform(uv1_scale, uv1_offset))
+	if uv1_triplanar:
+		_send(&"lobelight_uv1_scale", uv1_scale)
+		_send(&"lobelight_uv1_offset", uv1_offset)
+
+
+func _update_uv2(may_be_other_shader: bool) -> void:
+	if may_be_other_shader:
+		_queue_update()
+		return
+	_send(&"lobelight_uv2_transform", Numbers.transform(uv2_scale, uv2_offset))
+	if uv2_triplanar:
+		_send(&"lobelight_uv2_scale", uv2_scale)
+		_send(&"lobelight_uv2_offset", uv2_offset)
+
+
+func _update_transmittance() -> void:
+	var depth := subsurf_scatter_transmittance_depth
+	_send(&"lobelight_transmittance", Vector2(depth, subsurf_scatter_transmittance_boost))
+
+
+func _update_fade_limits() -> void:
+	_send(&"lobelight_fade_limits", Vector2(distance_fade_min_distance, distance_fade_max_distance))
+
+
+static func _is_dark(colour: Color) -> bool:
+	return colour.r == 0.0 and colour.g == 0.0 and colour.b == 0.0
 
 
 # Something that the shader or its parameters depend on has changed.
 @abstract func _queue_update() -> void
 
-# Numbers of a part have changed, which the shader's code does not depend on, but by the lobes.
-@abstract func _queue_part(part: int) -> void
+# The lobes are to be looked for anew, and are perhaps a case for another shader.
+@abstract func _queue_look() -> void
 
-# The colour alone has: it is often animated.
-@abstract func _update_albedo() -> void
+# Roughness or anisotropy has changed: they are often animated.
+@abstract func _update_widths() -> void

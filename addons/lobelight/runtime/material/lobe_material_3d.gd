@@ -117,19 +117,14 @@ static var _variants_mutex := Mutex.new()
 		LightRegistry.set_diffuse_source(_rid, int(value) as DiffuseSource.Source)
 		emit_changed()
 
-# Kept, because the object is no longer whole when it is told of its end.
-var _rid := get_rid()
 var _queued := false
-# Parts that are to be handed on; whether the shader's code is that of the properties, but for the
-# lobes; and the lobes that it is for.
-var _parts := 0
-var _knows_shape := false
+# The lobes that the shader's code is for.
 var _shape := 0
+# The one before is kept: what changes to and fro is compiled once.
 var _shader: Shader
+var _last_shader: Shader
 # What the lobes come from, and the rendering server's textures, kept alive.
 var _choice := TableChoice.new()
-# A light that comes while a thread loads the material has the main thread look at it as well.
-var _mutex := Mutex.new()
 
 
 ## The widths (alpha_x, alpha_y) of the BRDF along and across the brushing:
@@ -171,7 +166,6 @@ static func bake_normal_variance(normals: Image) -> ImageTexture:
 
 func _init() -> void:
 	LightRegistry.add_material(_rid, _queue_update)
-	_update_albedo()
 	_queue_update()
 
 
@@ -197,7 +191,7 @@ func _validate_property(property: Dictionary) -> void:
 func get_shader_code() -> String:
 	_mutex.lock()
 	_look()
-	var code := MaterialShader.get_code(self, _choice) + '#include "%s"\n' % _get_fragment_path()
+	var code := _make_code()
 	_mutex.unlock()
 	return code
 
@@ -240,18 +234,35 @@ func _get_fragment_path() -> String:
 	return folder.path_join("../shaders/material.gdshaderinc").simplify_path()
 
 
-# Several changed properties, as a file's are, make one shader. It is there before the next frame.
+## Has the rendering server know the shader and its parameters now. Where several properties change,
+## as when a file is loaded, they are handed on once, before the next frame is drawn; whoever asks
+## the server earlier calls this first.
+func update_now() -> void:
+	if _queued:
+		_update()
+
+
 func _queue_update() -> void:
-	_knows_shape = false
-	_queue_part(Parts.ALL)
+	_awaits_update = true
+	_queue_look()
+	emit_changed()
 
 
-func _queue_part(part: int) -> void:
-	_parts |= part
+func _queue_look() -> void:
 	if not _queued:
 		_queued = true
-		_update.call_deferred()
-	emit_changed()
+		update_now.call_deferred()
+
+
+func _update_widths() -> void:
+	_mutex.lock()
+	if not _queued and not _choice.follow(self, _rid):
+		_queue_look()
+	_mutex.unlock()
+
+
+func _make_code() -> String:
+	return MaterialShader.get_code(self, _choice) + '#include "%s"\n' % _get_fragment_path()
 
 
 # Looks anew at what the lobes come from.
@@ -259,29 +270,33 @@ func _look() -> void:
 	_choice.choose(self)
 
 
-func _update_albedo() -> void:
-	MaterialParameters.set_albedo(get_rid(), albedo_color)
-
-
 func _update() -> void:
 	_mutex.lock()
-	_queued = false
-	var parts := _parts
-	_parts = 0
 	# Before the look: what changes meanwhile, on another thread, is looked at again.
-	var is_known := _knows_shape
-	_knows_shape = true
-	if parts & Parts.TABLE:
-		_look()
+	var is_whole := _awaits_update
+	_awaits_update = false
+	_queued = false
+	_look()
 	var shape := _choice.get_shape()
-	if not is_known or shape != _shape:
+	if is_whole or shape != _shape:
 		_shape = shape
-		var code := get_shader_code()
-		if _shader == null or _shader.code != code:
-			_shader = _get_variant(code)
-			RenderingServer.material_set_shader(_rid, _shader.get_rid())
-	MaterialParameters.apply(self, _choice, parts)
+		_take_shader(_make_code())
+	if is_whole:
+		_is_physical = has_physical_units()
+		MaterialParameters.apply(self, _choice)
+	else:
+		MaterialParameters.apply_lobes(self, _choice)
 	_mutex.unlock()
+
+
+func _take_shader(code: String) -> void:
+	if _shader != null and _shader.code == code:
+		return
+	var before := _shader
+	var is_last := _last_shader != null and _last_shader.code == code
+	_shader = _last_shader if is_last else _get_variant(code)
+	_last_shader = before
+	RenderingServer.material_set_shader(_rid, _shader.get_rid())
 
 
 static func _get_variant(code: String) -> Shader:

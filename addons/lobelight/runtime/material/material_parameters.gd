@@ -6,7 +6,7 @@ extends Object
 ## all.
 
 const CoordinateParameters := preload("coordinate_parameters.gd")
-const Parts := preload("surface_parts.gd")
+const Numbers := preload("surface_numbers.gd")
 const TableChoice := preload("table_choice.gd")
 
 # As Godot's own materials have them, gray being the mean.
@@ -19,51 +19,47 @@ const _CHANNELS: Array[Vector4] = [
 ]
 
 
-static func set_albedo(material: RID, albedo: Color) -> void:
-	_give(material, &"lobelight_albedo", _linear(albedo))
-	_give(material, &"lobelight_alpha", albedo.a)
-
-
-## Only what the material's variant of the shader has, and of it only some [param parts], flags of
-## Parts.
-static func apply(surface: LobeBaseMaterial3D, choice: TableChoice, parts: int) -> void:
-	if parts & Parts.TABLE:
-		_apply_table(surface.get_rid(), choice)
-		_apply_coat(surface, choice)
-		_apply_sheen(surface, choice)
-	if parts & Parts.METAL and surface.is_dielectric():
+## All that the material's variant of the shader has.
+static func apply(surface: LobeBaseMaterial3D, choice: TableChoice) -> void:
+	_apply_albedo(surface)
+	apply_lobes(surface, choice)
+	if surface.is_dielectric():
 		_apply_metal(surface)
-	if parts & Parts.EMISSION and surface.emits():
+	if surface.emits():
 		_apply_emission(surface)
-	if parts & Parts.TEXTURES:
-		_apply_textures(surface)
-	if parts & Parts.COORDINATES:
-		CoordinateParameters.apply(surface)
-	if parts & Parts.FADES:
-		_apply_fades(surface)
-	if parts & Parts.LAMPS:
-		_apply_lamps(surface)
+	_apply_textures(surface)
+	CoordinateParameters.apply(surface)
+	_apply_fades(surface)
+	_apply_lamps(surface)
+
+
+## What goes with the lobes.
+static func apply_lobes(surface: LobeBaseMaterial3D, choice: TableChoice) -> void:
+	_apply_table(surface.get_rid(), choice)
+	_apply_coat(surface, choice)
+	_apply_sheen(surface, choice)
+
+
+static func _apply_albedo(surface: LobeBaseMaterial3D) -> void:
+	var albedo := surface.albedo_color
+	_give(surface.get_rid(), &"lobelight_albedo", Numbers.linear(albedo))
+	_give(surface.get_rid(), &"lobelight_alpha", albedo.a)
 
 
 static func _apply_metal(surface: LobeBaseMaterial3D) -> void:
 	var material := surface.get_rid()
 	_give(material, &"lobelight_metallic", surface.metallic)
 	_give(material, &"lobelight_specular_amount", surface.metallic_specular)
-	# Godot 4.6, scene_forward_lights_inc.glsl, F0 and light_compute: what reflects less than 2 % is
-	# taken for occluded.
-	var f0 := 0.16 * surface.metallic_specular * surface.metallic_specular
-	_give(material, &"lobelight_dielectric", Vector2(f0, minf(50.0 * f0, 1.0)))
+	_give(material, &"lobelight_dielectric", Numbers.dielectric(surface.metallic_specular))
 
 
 static func _apply_table(material: RID, choice: TableChoice) -> void:
+	_give(material, &"lobelight_table", choice.get_texture())
+	_give(material, &"lobelight_table_lookup", choice.get_lookup())
 	if choice.widths_texture != null:
-		_give(material, &"lobelight_table", choice.widths_texture.texture.get_rid())
-		_give(material, &"lobelight_table_lookup", choice.widths_texture.lookup)
 		_give(material, &"lobelight_widths", choice.widths_texture.levels)
 	else:
-		_give(material, &"lobelight_table", choice.table.get_texture().get_rid())
-		_give(material, &"lobelight_table_lookup", choice.table.get_lookup())
-		_give(material, &"lobelight_table_alpha", choice.table.alpha)
+		_give(material, &"lobelight_table_alpha", choice.get_alpha())
 	_give(material, &"lobelight_roughness", choice.roughness)
 	if not choice.is_isotropic:
 		_give(material, &"lobelight_anisotropy", choice.anisotropy)
@@ -90,7 +86,7 @@ static func _apply_sheen(surface: LobeBaseMaterial3D, choice: TableChoice) -> vo
 	_give(material, &"lobelight_sheen_table", choice.sheen.get_texture().get_rid())
 	_give(material, &"lobelight_sheen_alpha", choice.sheen.alpha.x)
 	_give(material, &"lobelight_sheen_lookup", Vector3(lookup.x, lookup.y, lookup.w))
-	_give(material, &"lobelight_sheen_tint", _linear(surface.sheen_color))
+	_give(material, &"lobelight_sheen_tint", Numbers.linear(surface.sheen_color))
 	_give_texture(material, &"lobelight_sheen_texture", surface.sheen_texture)
 
 
@@ -186,24 +182,9 @@ static func _apply_lamps(surface: LobeBaseMaterial3D) -> void:
 
 
 static func _apply_emission(surface: LobeBaseMaterial3D) -> void:
-	var energy := surface.emission_energy_multiplier
-	if surface.has_physical_units():
-		energy *= surface.emission_intensity
-	var colour := _linear(surface.emission) * energy
-	var factor := energy * Vector3.ONE
-	if (
-		surface.emission_texture != null
-		and surface.emission_operator == BaseMaterial3D.EMISSION_OP_MULTIPLY
-	):
-		factor = colour
-		colour = Vector3.ZERO
-	_give(surface.get_rid(), &"lobelight_emitted", colour)
-	_give(surface.get_rid(), &"lobelight_emission_factor", factor)
-
-
-static func _linear(colour: Color) -> Vector3:
-	var linear := colour.srgb_to_linear()
-	return Vector3(linear.r, linear.g, linear.b)
+	var emitted := surface.get_emitted()
+	_give(surface.get_rid(), &"lobelight_emitted", emitted[0])
+	_give(surface.get_rid(), &"lobelight_emission_factor", emitted[1])
 
 
 # Whether there is one.

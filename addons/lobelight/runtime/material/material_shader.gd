@@ -163,7 +163,7 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		defines.append("TURNED")
 	if choice.widths_texture != null:
 		defines.append("WIDTHS_PER_PIXEL")
-	elif choice.table.has_second_texels():
+	elif choice.has_second_texels():
 		defines.append("SECOND_TEXELS")
 	if choice.is_from_set:
 		defines.append("COMPENSATED")

@@ -1,17 +1,28 @@
 @tool
 extends RefCounted
 ## Which lobes a [LobeMaterial3D] draws: a table, or all tables of a set.
+##
+## Widths that change time and again, as animated ones do, get no tables of their own. Isotropic
+## tables are then two neighbouring rows of the texture that has all of them, which the sampler
+## mixes as it mixes views; anisotropic ones are mixed on the GPU. Both cost a pixel nothing.
 
+const MixedLobes := preload("mixed_lobes.gd")
+const OnDemand := preload("../on_demand.gd")
 const Widths := preload("../table/widths.gd")
 const WidthsTexture := preload("../table/widths_texture.gd")
 const DEFAULT_SET := "res://addons/lobelight/tables/ggx_8.res"
 const SHEEN_SET := "res://addons/lobelight/tables/charlie_4.res"
 
+const _MIXER := "res://addons/lobelight/runtime/mixing/table_mixer.gd"
+
+# Changes of widths that get tables of their own: what is set once needs no more.
+const _FIRST_CHANGES := 1
+
 # Kept from one look to the next: loading a set takes a while.
 static var _sets: Dictionary[String, LobeTableSet] = {}
 static var _mutex := Mutex.new()
 
-## The lobes, where one table serves the whole surface.
+## The lobes, where one table serves the whole surface; [code]null[/code] where widths vary or move.
 var table: LobeTable
 ## The lobes of all widths, where these vary from pixel to pixel; otherwise [code]null[/code].
 var widths_texture: WidthsTexture
@@ -28,6 +39,25 @@ var roughness := 0.0
 var anisotropy := 0.0
 var rotation := 0.0
 
+# Where widths change: the isotropic tables of all, or a table that the GPU mixes.
+var _rows: WidthsTexture
+# Of these: as LobeTable.get_lookup(), and from a width's logarithm to v.
+var _row_lookup: Vector4
+var _row_step := 0.0
+var _first_row := 0.0
+var _mixed: MixedLobes
+var _item: RID
+var _due: Array[bool]
+# How often they have, up to where it counts, and how far a set's widths go.
+var _changes := 0
+var _least := 0.0
+var _largest := 1.0
+var _ignores_anisotropy := false
+# Whether the first axis is turned, and whether the axes have been exchanged for it.
+var _has_turn := false
+var _has_turned := false
+# Whether other widths take no other table.
+var _can_follow := false
 var _stand_in: LobeTable
 
 
@@ -36,18 +66,22 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 	# Sets find a shared table again only while somebody holds it, and the rendering server goes on
 	# drawing with its texture.
 	@warning_ignore("unused_variable")
-	var held := [table, widths_texture, coat, sheen]
+	var held := [table, widths_texture, coat, sheen, _rows, _mixed]
 	roughness = surface.roughness
 	anisotropy = surface.get_shown_anisotropy()
 	rotation = surface.anisotropy_rotation
 	table = null
 	widths_texture = null
+	_rows = null
 	var tables := get_set(surface)
 	is_from_set = surface.table == null and tables != null
 	if is_from_set:
 		_choose_from(tables, surface)
 	else:
 		_choose_table(surface)
+	if table != null or widths_texture != null or is_isotropic:
+		_mixed = null
+	_can_follow = is_from_set and table == null and not _has_turned
 	coat = null
 	if surface.is_coated() and tables != null:
 		var width := Widths.from_coat_roughness(surface.clearcoat_roughness)
@@ -57,9 +91,77 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 		_choose_sheen(surface)
 
 
+## Hands on other widths at once, where they take no other shader; otherwise returns false, and the
+## lobes are to be looked for anew. [param material] is the surface's own. It is called for each
+## animated material in each frame, and calls little itself.
+func follow(surface: LobeBaseMaterial3D, material: RID) -> bool:
+	if not _can_follow:
+		_changes += 1
+		# Without a set widths do not count.
+		return not is_from_set
+	var turned := 0.0
+	if surface.anisotropy_enabled and not _ignores_anisotropy:
+		turned = surface.anisotropy
+	if (turned == 0.0) != (anisotropy == 0.0) or turned < 0.0 and _has_turn:
+		return false
+	roughness = surface.roughness
+	RenderingServer.material_set_param(material, &"lobelight_roughness", roughness)
+	if _rows != null:
+		var width := clampf(roughness * roughness, _least, _largest)
+		_row_lookup.w = _row_step * log(width) + _first_row
+		RenderingServer.material_set_param(material, &"lobelight_table_lookup", _row_lookup)
+		RenderingServer.material_set_param(
+			material, &"lobelight_table_alpha", Vector2(width, width)
+		)
+		return true
+	if turned != anisotropy:
+		anisotropy = turned
+		RenderingServer.material_set_param(material, &"lobelight_anisotropy", anisotropy)
+	if _mixed != null:
+		_mix()
+	return true
+
+
+## The texture of the lobes.
+func get_texture() -> RID:
+	if widths_texture != null:
+		return widths_texture.texture.get_rid()
+	if _rows != null:
+		return _rows.texture.get_rid()
+	if _mixed != null:
+		return _mixed.texture
+	return table.get_texture().get_rid()
+
+
+## See [method LobeTable.get_lookup] and [member WidthsTexture.lookup].
+func get_lookup() -> Vector4:
+	if widths_texture != null:
+		return widths_texture.lookup
+	if _rows != null:
+		var width := clampf(roughness * roughness, _least, _largest)
+		_row_lookup.w = _row_step * log(width) + _first_row
+		return _row_lookup
+	if _mixed != null:
+		return _mixed.lookup
+	return table.get_lookup()
+
+
+## What the lobes' slopes are multiplied with, where it is the same everywhere: the widths.
+func get_alpha() -> Vector2:
+	if table != null:
+		return table.alpha
+	if _mixed != null:
+		return MixedLobes.ALPHA
+	return Vector2.ONE * clampf(roughness * roughness, _least, _largest)
+
+
+## Whether each lobe has a second texel.
+func has_second_texels() -> bool:
+	return table != null and table.has_second_texels()
+
+
 ## A number that is another one where the shader's code is, as far as it goes by the lobes.
 func get_shape() -> int:
-	var has_second_texels := table != null and table.has_second_texels()
 	var shape := lobe_count
 	shape = 64 * shape + (coat.lobe_count if coat != null else 0)
 	shape = 64 * shape + (sheen.lobe_count if sheen != null else 0)
@@ -67,7 +169,7 @@ func get_shape() -> int:
 		is_isotropic,
 		is_from_set,
 		widths_texture != null,
-		has_second_texels,
+		has_second_texels(),
 		rotation != 0.0,
 		anisotropy < 0.0,
 	]
@@ -78,19 +180,51 @@ func get_shape() -> int:
 
 func _choose_from(tables: LobeTableSet, surface: LobeBaseMaterial3D) -> void:
 	_stand_in = null
-	# Neither the engine nor flow maps turn negative anisotropy.
-	if anisotropy < 0.0 and rotation != 0.0 and surface.anisotropy_flowmap == null:
+	_least = tables.widths[0]
+	_largest = tables.widths[-1]
+	# Neither the engine nor flow maps turn negative anisotropy: axes that are turned are exchanged.
+	_has_turn = rotation != 0.0 and surface.anisotropy_flowmap == null
+	_has_turned = _has_turn and anisotropy < 0.0
+	if _has_turned:
 		anisotropy = Widths.exchanged(anisotropy)
 		rotation += 0.5 * PI
-	if tables.is_isotropic():
+	_ignores_anisotropy = tables.is_isotropic()
+	if _ignores_anisotropy:
 		anisotropy = 0.0
 	lobe_count = tables.lobe_count
 	is_isotropic = anisotropy == 0.0
-	if surface.varies() and WidthsTexture.find_problem(tables.widths, is_isotropic).is_empty():
+	var can_vary := WidthsTexture.find_problem(tables.widths, is_isotropic).is_empty()
+	if surface.varies() and can_vary:
 		widths_texture = tables.get_widths_texture(is_isotropic)
+	elif _changes > _FIRST_CHANGES and can_vary and is_isotropic:
+		_rows = tables.get_widths_texture(true)
+		_row_step = _rows.levels.x / log(2.0) * _rows.lookup.z
+		_first_row = _rows.levels.y * _rows.lookup.z + _rows.lookup.w
+		_row_lookup = _rows.lookup
+	elif _changes > _FIRST_CHANGES and can_vary and _find_mixed(tables):
+		_mix()
 	else:
 		table = tables.shared_table_at(Widths.from_roughness(roughness, anisotropy))
 		is_isotropic = table.is_isotropic()
+
+
+# Whether the GPU mixes. Exports leave the means out where they know of no widths that change.
+func _find_mixed(tables: LobeTableSet) -> bool:
+	if OnDemand.find_loss(_MIXER, OnDemand.MIXING):
+		return false
+	var mixer := OnDemand.fetch(_MIXER, OnDemand.MIXING) as GDScript
+	_mixed = mixer.call(&"take", tables, _mixed)
+	_item = _mixed.item
+	_due = _mixed.due
+	return true
+
+
+func _mix() -> void:
+	RenderingServer.canvas_item_set_instance_shader_parameter(
+		_item, MixedLobes.SURFACE, Vector2(roughness, anisotropy)
+	)
+	if not _due[0]:
+		_mixed.draw()
 
 
 func _choose_sheen(surface: LobeBaseMaterial3D) -> void:
