@@ -145,7 +145,7 @@ func test_a_running_game_is_told_once() -> void:
 	await _frames(2)
 	assert_array(warnings.seen).is_empty()
 	for repetition in 2:
-		_environment._tell_time = 0
+		_environment._live._tell_time = 0
 		await _environment.rebuild()
 		await _frames(2)
 	OS.remove_logger(warnings)

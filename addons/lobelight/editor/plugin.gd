@@ -10,15 +10,16 @@ const BakeDialog := preload("bake/bake_dialog.gd")
 const BakeQueue := preload("bake/bake_queue.gd")
 const ExportPlugin := preload("export/export_plugin.gd")
 const GltfImport := preload("import/gltf_import.gd")
-const LightBakes := preload("probes/light_bakes.gd")
-const LightDialog := preload("probes/light_dialog.gd")
+const LightBakes := preload("light/light_bakes.gd")
+const LightDialog := preload("light/light_dialog.gd")
+const LightImporter := preload("import/light_importer.gd")
+const LightInspector := preload("light/light_inspector.gd")
 const MaterialConversionPlugin := preload("conversion/material_conversion_plugin.gd")
 const MeasuredImporter := preload("import/measured_importer.gd")
 const NormalVarianceInspector := preload("antialiasing/normal_variance_inspector.gd")
 const PanoramaImporter := preload("import/panorama_importer.gd")
 const PresetInspector := preload("presets/preset_inspector.gd")
 const ProbeGizmo := preload("gizmos/probe_gizmo.gd")
-const ProbeInspector := preload("probes/probe_inspector.gd")
 const ProjectSettingsPage := preload("project_settings.gd")
 const SceneConversionMenu := preload("conversion/scene_conversion_menu.gd")
 const TableInspector := preload("bake/table_inspector.gd")
@@ -42,7 +43,7 @@ var _tools_menu: ToolsMenu
 var _probe_gizmo: ProbeGizmo
 var _light_bakes: LightBakes
 var _light_dialog: LightDialog
-var _probe_inspector: ProbeInspector
+var _light_inspector: LightInspector
 var _normal_variance: NormalVarianceInspector
 
 
@@ -67,7 +68,7 @@ func _enter_tree() -> void:
 	var panoramas := PanoramaImporter.new()
 	# The editor listens first and reloads what it finds loaded.
 	EditorInterface.get_resource_filesystem().resources_reimported.connect(panoramas.on_reimported)
-	_importers = [panoramas, MeasuredImporter.new()]
+	_importers = [panoramas, LightImporter.new(), MeasuredImporter.new()]
 	for importer in _importers:
 		add_import_plugin(importer)
 	_gltf_import = GltfImport.new()
@@ -82,8 +83,8 @@ func _enter_tree() -> void:
 	_light_bakes = LightBakes.new(get_undo_redo())
 	_light_dialog = LightDialog.new(_light_bakes)
 	EditorInterface.get_base_control().add_child(_light_dialog)
-	_probe_inspector = ProbeInspector.new(_light_bakes)
-	add_inspector_plugin(_probe_inspector)
+	_light_inspector = LightInspector.new(_light_bakes)
+	add_inspector_plugin(_light_inspector)
 	_normal_variance = NormalVarianceInspector.new(get_undo_redo())
 	add_inspector_plugin(_normal_variance)
 	_tools_menu = ToolsMenu.new(_bakes, _light_bakes, _scene_menu)
@@ -109,8 +110,8 @@ func _exit_tree() -> void:
 	_preset_inspector = null
 	remove_inspector_plugin(_warning_inspector)
 	_warning_inspector = null
-	remove_inspector_plugin(_probe_inspector)
-	_probe_inspector = null
+	remove_inspector_plugin(_light_inspector)
+	_light_inspector = null
 	remove_inspector_plugin(_normal_variance)
 	_normal_variance = null
 	_light_dialog.queue_free()
@@ -143,7 +144,7 @@ func get_probe_gizmo() -> ProbeGizmo:
 	return _probe_gizmo
 
 
-## The bakes of probes under way.
+## The bakes of lights under way.
 func get_light_bakes() -> LightBakes:
 	return _light_bakes
 

@@ -4,10 +4,10 @@ extends GdUnitTestSuite
 ## an editor without a screen draws nothing; tests/render has real ones.
 
 const Kit := preload("res://tests/editor/editor_kit.gd")
-const LightBakes := preload("res://addons/lobelight/editor/probes/light_bakes.gd")
-const LightDialog := preload("res://addons/lobelight/editor/probes/light_dialog.gd")
-const LightFile := preload("res://addons/lobelight/editor/probes/light_file.gd")
-const LightPanel := preload("res://addons/lobelight/editor/probes/light_panel.gd")
+const LightBakes := preload("res://addons/lobelight/editor/light/light_bakes.gd")
+const LightDialog := preload("res://addons/lobelight/editor/light/light_dialog.gd")
+const LightFile := preload("res://addons/lobelight/editor/light/light_file.gd")
+const LightPanel := preload("res://addons/lobelight/editor/light/light_panel.gd")
 const ToolsMenu := preload("res://addons/lobelight/editor/menu/tools_menu.gd")
 
 const FOLDER := "res://probes"

@@ -2,6 +2,7 @@
 extends Object
 ## What a scene uses of Lobelight and what that costs, in words.
 
+const LightFile := preload("../light/light_file.gd")
 const SceneUsage := preload("scene_usage.gd")
 const SceneWarnings := preload("../warnings/scene_warnings.gd")
 const Wording := preload("../wording.gd")
@@ -70,7 +71,11 @@ static func _describe_environment(environment: LobeEnvironment3D, root: Node) ->
 	var source: String = LobeEnvironment3D.Source.find_key(environment.source)
 	var cube := environment.get_cubemap()
 	var memory := "no light yet"
-	if cube != null:
+	if environment.light != null and environment.light.get_problem().is_empty():
+		source = "baked"
+		var bytes := LightFile.count_bytes(environment.light)
+		memory = "%d texels, %s" % [environment.light.size, String.humanize_size(bytes)]
+	elif cube != null:
 		memory = _describe_cube(cube.get_width())
 	return "%s: %s, %s" % [root.get_path_to(environment), source.to_lower(), memory]
 

@@ -5,8 +5,8 @@ extends PopupMenu
 enum Item { BAKE, REPORT, CONVERT, BAKE_PROBES, CONVERT_BACK, ASK_TO_CONVERT }
 
 const BakeQueue := preload("../bake/bake_queue.gd")
-const LightBakes := preload("../probes/light_bakes.gd")
-const LightFile := preload("../probes/light_file.gd")
+const LightBakes := preload("../light/light_bakes.gd")
+const LightFile := preload("../light/light_file.gd")
 const Recipe := preload("../bake/bake_recipe.gd")
 const SceneConversionMenu := preload("../conversion/scene_conversion_menu.gd")
 const SceneReport := preload("scene_report.gd")

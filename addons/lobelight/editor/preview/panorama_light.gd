@@ -31,7 +31,7 @@ func make(path: String) -> LobeLight:
 	environment.update_mode = LobeEnvironment3D.UpdateMode.ONCE
 	environment.panorama = ImageTexture.create_from_image(image)
 	var is_made := await environment.rebuild()
-	var light: LobeLight = environment._light if is_made else null
+	var light: LobeLight = environment.get_light() if is_made else null
 	error = environment.get_rebuild_error()
 	environment.free()
 	return light

@@ -1,26 +1,26 @@
 @tool
 extends Object
-## Where the baked lights of a scene's probes are kept: files beside the scene, named by the scene
-## and the node.
+## Where the baked lights of a scene's probes and environments are kept: files beside the scene,
+## named by the scene and the node.
 
 const _EXTENSION := "res"
 
 
-## Why a probe's light cannot be kept with the scene of [param root], in a sentence; empty if it
+## Why a node's light cannot be kept with the scene of [param root], in a sentence; empty if it
 ## can.
-static func find_problem(probe: LobeProbe3D, root: Node) -> String:
-	if root == null or probe != root and not root.is_ancestor_of(probe):
-		return "The probe is not in the open scene, which its light is to be saved with."
+static func find_problem(node: Node3D, root: Node) -> String:
+	if root == null or node != root and not root.is_ancestor_of(node):
+		return "%s is not in the open scene, which its light is to be saved with." % node.name
 	var problem := find_problem_of_scene(root)
 	if problem:
 		return problem
-	if not is_saved(probe, root):
+	if not is_saved(node, root):
 		return (
 			(
 				"%s is in an instanced scene: bake it where that scene is open, or turn on Editable "
 				+ "Children."
 			)
-			% probe.name
+			% node.name
 		)
 	return ""
 
@@ -40,22 +40,22 @@ static func is_saved(node: Node, root: Node) -> bool:
 	return instance != null and root.is_editable_instance(instance) and is_saved(instance, root)
 
 
-## The file for a probe's light. It stays the one that the probe has, unless that is another scene's
-## or another probe's: what was copied has a light of its own from then on.
-static func choose_path(probe: LobeProbe3D, root: Node) -> String:
+## The file for a node's light. It stays the one that the node has, unless that is another scene's
+## or another node's: what was copied has a light of its own from then on.
+static func choose_path(node: Node3D, root: Node) -> String:
 	# Some file systems take capitals and small letters for the same.
 	var taken: Dictionary[String, bool] = {}
-	for other in find_probes(root):
-		if other != probe and other.light != null:
-			taken[other.light.resource_path.to_lower()] = true
+	for other in find_lit(root):
+		if other != node and get_light(other) != null:
+			taken[get_light(other).resource_path.to_lower()] = true
 	var stem := root.scene_file_path.get_basename()
-	var own := "" if probe.light == null else probe.light.resource_path
+	var own := "" if get_light(node) == null else get_light(node).resource_path
 	var is_beside := own.begins_with(stem + ".") and own.get_extension() == _EXTENSION
 	if is_beside and not taken.has(own.to_lower()):
 		return own
 	var names := PackedStringArray([root.name])
-	if probe != root:
-		names = _get_names(root.get_path_to(probe))
+	if node != root:
+		names = _get_names(root.get_path_to(node))
 	var name := "_".join(names).validate_filename()
 	var path := "%s.%s.%s" % [stem, name, _EXTENSION]
 	var number := 2
@@ -65,16 +65,39 @@ static func choose_path(probe: LobeProbe3D, root: Node) -> String:
 	return path
 
 
-## The probes among a node and all below it.
-static func find_probes(root: Node) -> Array[LobeProbe3D]:
-	var found: Array[LobeProbe3D] = []
+## Whether a node can have a baked light: a probe or an environment.
+static func is_lit(object: Object) -> bool:
+	return object is LobeProbe3D or object is LobeEnvironment3D
+
+
+## The baked light of such a node, or [code]null[/code].
+static func get_light(node: Node3D) -> LobeLight:
+	return node.get(&"light")
+
+
+## Bytes of what a light shows, with all levels.
+static func count_bytes(light: LobeLight) -> int:
+	var bytes := 0
+	for face in light.faces:
+		bytes += face.get_data_size()
+	return bytes
+
+
+## The probes and environments among a node and all below it.
+static func find_lit(root: Node) -> Array[Node3D]:
+	var found: Array[Node3D] = []
 	if root == null:
 		return found
 	var nodes := root.find_children("*", "Node3D", true, false)
 	nodes.push_front(root)
-	for node in nodes:
-		if node is LobeProbe3D:
-			found.append(node)
+	found.assign(nodes.filter(is_lit))
+	return found
+
+
+## The probes among these.
+static func find_probes(root: Node) -> Array[LobeProbe3D]:
+	var found: Array[LobeProbe3D] = []
+	found.assign(find_lit(root).filter(func(node: Node3D) -> bool: return node is LobeProbe3D))
 	return found
 
 

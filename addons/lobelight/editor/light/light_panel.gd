@@ -1,14 +1,14 @@
 @tool
 extends VBoxContainer
-## Where a probe's light comes from, and the buttons that bake it and go back to captures. It stands
-## at the top of the probe's inspector.
+## Where the light of a probe or an environment comes from, and the buttons that bake it and go back
+## to live light. It stands at the top of the node's inspector.
 
 const LightBakes := preload("light_bakes.gd")
 
-const _LIVE := "Live: the room is captured when the game runs."
+const LightFile := preload("light_file.gd")
 
-## The probe whose light it is.
-var probe: LobeProbe3D
+## Whose light it is.
+var node: Node3D
 
 var _bakes: LightBakes
 var _source := Label.new()
@@ -17,18 +17,21 @@ var _clear := Button.new()
 var _status := Label.new()
 
 
-static func make(bakes: LightBakes, for_probe: LobeProbe3D) -> VBoxContainer:
+static func make(bakes: LightBakes, for_node: Node3D) -> VBoxContainer:
 	var panel := new()
 	panel._bakes = bakes
-	panel.probe = for_probe
+	panel.node = for_node
 	panel._build()
 	return panel
 
 
 func _build() -> void:
-	_bake.tooltip_text = "Captures the room, and saves its light in a file beside the scene."
+	var what := (
+		"Captures the room" if node is LobeProbe3D else "Filters the panorama, or the sky as it is"
+	)
+	_bake.tooltip_text = "%s, and saves the light in a file beside the scene." % what
 	_clear.text = "Clear Baked Light"
-	_clear.tooltip_text = "The room is captured when the game runs again. The file stays."
+	_clear.tooltip_text = "The light is made when the game runs again. The file stays."
 	_status.visible = false
 	for label: Label in [_source, _status]:
 		label.autowrap_mode = TextServer.AUTOWRAP_WORD_SMART
@@ -56,13 +59,13 @@ func _exit_tree() -> void:
 ## What the button Bake Light does.
 func press_bake() -> void:
 	_status.visible = false
-	_bakes.add(probe)
+	_bakes.add(node)
 
 
 ## What the button Clear Baked Light does.
 func press_clear() -> void:
 	_status.visible = false
-	_bakes.clear(probe)
+	_bakes.clear(node)
 
 
 ## Where the light comes from, in a sentence.
@@ -76,14 +79,22 @@ func get_status() -> String:
 
 
 func _update_state() -> void:
-	if not is_instance_valid(probe):
+	if not is_instance_valid(node):
 		return
-	var baking := _bakes.is_baking(probe)
+	var baking := _bakes.is_baking(node)
 	_bake.text = "Baking …" if baking else "Bake Light"
 	_bake.disabled = baking
-	_clear.visible = probe.light != null
+	var light := LightFile.get_light(node)
+	_clear.visible = light != null
 	_clear.disabled = baking
-	_source.text = _LIVE if probe.light == null else _describe(probe.light)
+	var live := "captured" if node is LobeProbe3D else "filtered"
+	_source.text = "Live: the %s is %s when the game runs." % [_get_source_name(), live]
+	if light != null:
+		_source.text = _describe(light)
+
+
+func _get_source_name() -> String:
+	return "room" if node is LobeProbe3D else "light"
 
 
 static func _describe(light: LobeLight) -> String:
@@ -94,21 +105,22 @@ static func _describe(light: LobeLight) -> String:
 	var place := (
 		"the scene's own file" if path.is_empty() or path.contains("::") else path.get_file()
 	)
-	return "Baked: %d texels, in %s." % [light.size, place]
+	var bytes := String.humanize_size(LightFile.count_bytes(light))
+	return "Baked: %d texels, %s, in %s." % [light.size, bytes, place]
 
 
-func _on_failed(failed_probe: LobeProbe3D, message: String) -> void:
-	if failed_probe == probe:
+func _on_failed(failed_node: Node3D, message: String) -> void:
+	if failed_node == node:
 		_say(message, &"error_color")
 
 
-func _on_baked(baked_probe: LobeProbe3D) -> void:
-	if baked_probe == probe:
+func _on_baked(baked_node: Node3D) -> void:
+	if baked_node == node:
 		_status.visible = false
 
 
-func _on_cancelled(cancelled_probe: LobeProbe3D) -> void:
-	if cancelled_probe == probe:
+func _on_cancelled(cancelled_node: Node3D) -> void:
+	if cancelled_node == node:
 		_say("Cancelled; the light is the one from before.", &"warning_color")
 
 

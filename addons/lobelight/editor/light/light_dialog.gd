@@ -1,11 +1,11 @@
 @tool
 extends AcceptDialog
-## Shows how many probes of a scene have been baked, and cancels the rest. What cannot be baked is
+## Shows how many lights of a scene have been baked, and cancels the rest. What cannot be baked is
 ## said in the editor's notes.
 
 const LightBakes := preload("light_bakes.gd")
 
-# Most bakes of a single probe are over sooner.
+# Most bakes of a single light are over sooner.
 const _DELAY_SECONDS := 0.3
 
 var _bakes: LightBakes
@@ -34,12 +34,13 @@ func _init(bakes: LightBakes = null) -> void:
 
 
 func _ready() -> void:
+	_bar.step = 0.01
 	_bar.custom_minimum_size.x = 360.0 * EditorInterface.get_editor_scale()
 
 
 func _process(delta: float) -> void:
-	var probe := _bakes.get_running() if _bakes != null else null
-	if probe == null:
+	var node := _bakes.get_running() if _bakes != null else null
+	if node == null:
 		_waited = 0.0
 		_was_closed = false
 		hide()
@@ -47,9 +48,10 @@ func _process(delta: float) -> void:
 		return
 	_waited += delta
 	var progress := _bakes.get_progress()
-	_what.text = "Capturing %s, %d of %d" % [probe.name, progress.x + 1, progress.y]
+	var verb := "Capturing" if node is LobeProbe3D else "Filtering the light of"
+	_what.text = "%s %s, %d of %d" % [verb, node.name, progress.x + 1, progress.y]
 	_bar.max_value = progress.y
-	_bar.value = progress.x
+	_bar.value = progress.x + _bakes.get_fraction()
 	if not visible and not _was_closed and _waited > _DELAY_SECONDS:
 		popup_centered()
 
@@ -59,9 +61,9 @@ func _on_action(action: StringName) -> void:
 		_bakes.cancel_all()
 
 
-func _on_failed(probe: LobeProbe3D, message: String) -> void:
+func _on_failed(node: Node3D, message: String) -> void:
 	var toaster := EditorInterface.get_editor_toaster()
-	toaster.push_toast("%s: %s" % [probe.name, message], EditorToaster.SEVERITY_ERROR)
+	toaster.push_toast("%s: %s" % [node.name, message], EditorToaster.SEVERITY_ERROR)
 
 
 func _on_visibility_changed() -> void:

@@ -1,0 +1,127 @@
+@tool
+extends "native_importer.gd"
+## Imports environment maps as baked lights, [LobeLight]s for [member LobeEnvironment3D.light]:
+## [code]environment.light = load("res://hall.exr")[/code]. The files are those that
+## panorama_importer.gd reads; the library filters them as the environment would when the game runs.
+## [br][br]
+## It is chosen in the import dock; the engine's importer stays the one that files get by default.
+
+const PanoramaFilter := preload("../light/panorama_filter.gd")
+const PanoramaImporter := preload("panorama_importer.gd")
+const Progress := preload("import_progress.gd")
+const Pyramid := preload("../../runtime/pyramid/pyramid.gd")
+
+const NAME := "lobelight.light"
+
+
+func _get_importer_name() -> String:
+	return NAME
+
+
+func _get_visible_name() -> String:
+	return "Light (Lobelight)"
+
+
+func _get_recognized_extensions() -> PackedStringArray:
+	return ["exr", "hdr"]
+
+
+func _get_resource_type() -> String:
+	return "Resource"
+
+
+# Below the engine's own, and below that of panoramas.
+func _get_priority() -> float:
+	return 0.4
+
+
+func _get_import_options(path: String, _preset: int) -> Array[Dictionary]:
+	var layers := ",".join(PanoramaImporter.list_layers(path))
+	return [
+		{
+			"name": "size",
+			"default_value": 0,
+			"property_hint": PROPERTY_HINT_ENUM,
+			"hint_string": "Automatic:0,32:32,64:64,128:128,256:256,512:512,1024:1024,2048:2048",
+		},
+		{
+			"name": "filter",
+			"default_value": Pyramid.Filter.DISC,
+			"property_hint": PROPERTY_HINT_ENUM,
+			"hint_string": "Gaussian:%d,Disc:%d" % [Pyramid.Filter.GAUSSIAN, Pyramid.Filter.DISC],
+		},
+		{
+			"name": "layer",
+			"default_value": "",
+			"property_hint": PROPERTY_HINT_ENUM_SUGGESTION,
+			"hint_string": layers,
+		},
+		{
+			"name": "exposure",
+			"default_value": 0.0,
+			"property_hint": PROPERTY_HINT_RANGE,
+			"hint_string": "-16,16,0.01,suffix:EV",
+		},
+	]
+
+
+func _get_option_visibility(path: String, option: StringName, _options: Dictionary) -> bool:
+	if option != &"layer" or path.is_empty():
+		return true
+	return not PanoramaImporter.list_layers(path).is_empty()
+
+
+func _import(
+	source: String,
+	save_path: String,
+	options: Dictionary,
+	_platform_variants: Array[String],
+	_generated: Array[String]
+) -> Error:
+	var path := "%s.%s" % [save_path, _get_save_extension()]
+	var read := PanoramaImporter.read_file(source, options)
+	if read.has("error"):
+		push_error(read["error"])
+		return ERR_FILE_CORRUPT
+	for note: String in read["notes"]:
+		print("%s: %s." % [source, note])
+	for warning: String in read["warnings"]:
+		push_warning("%s: %s." % [source, warning])
+	var progress := Progress.new(
+		"Filtering the light of %s" % source.get_file(), "Import LobeLight"
+	)
+	var made: Variant = filter(read, options, progress)
+	if made is LobeLight:
+		return ResourceSaver.save(made as LobeLight, path, ResourceSaver.FLAG_COMPRESS)
+	if not progress.is_cancelled:
+		push_error("%s: %s" % [source, made])
+		return ERR_FILE_CORRUPT
+	# A cancelled import keeps the light of the one before.
+	if FileAccess.file_exists(path):
+		print("%s: cancelled; the light is the one from before. Reimport filters it." % source)
+		return OK
+	print("%s: cancelled; Reimport in the Import dock makes the light." % source)
+	return ERR_SKIP
+
+
+## The light of a panorama as [method PanoramaImporter.read_file] gives it, or a sentence that says
+## why there is none.
+static func filter(read: Dictionary, options: Dictionary, progress: Progress) -> Variant:
+	var width: int = read["width"]
+	var height: int = read["height"]
+	var data: PackedByteArray = read["data"]
+	var image := Image.create_from_data(width, height, false, Image.FORMAT_RGBAH, data)
+	var kernel: Pyramid.Filter = options["filter"]
+	var request := PanoramaFilter.make_request(image, options["size"] as int, kernel)
+	var task := NativeLibrary.create(&"LobeLightFilter")
+	if task.call(&"start", request):
+		while task.call(&"is_running"):
+			progress.step(task.call(&"get_progress") as float, -1.0)
+			if progress.is_cancelled:
+				task.call(&"cancel")
+		progress.close()
+	var result: Dictionary = task.call(&"get_result")
+	if result.is_empty():
+		var error: String = task.call(&"get_error")
+		return error if error else "The import was cancelled."
+	return PanoramaFilter.make_light(request, result)

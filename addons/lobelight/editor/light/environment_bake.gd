@@ -1,0 +1,95 @@
+@tool
+extends RefCounted
+## Makes the light that a [LobeEnvironment3D] is to show baked: that of its panorama by the native
+## library, and that of a sky or a capture on the editor's GPU, as the node would draw it live.
+
+const LightSettings := preload("../../runtime/light/light_settings.gd")
+const LiveLight := preload("../../runtime/live/live_light.gd")
+const NativeLibrary := preload("../bake/native_library.gd")
+const PanoramaFilter := preload("panorama_filter.gd")
+const Pyramid := preload("../../runtime/pyramid/pyramid.gd")
+
+var _task: RefCounted
+
+
+## A light without a place, or a sentence that says why there is none. To be awaited; after
+## [method cancel] it is any of the two.
+func make(environment: LobeEnvironment3D) -> Variant:
+	var source := LightSettings.decide(
+		environment.source as LightSettings.Source, environment.panorama != null
+	)
+	var is_by_library := (
+		source == LightSettings.Source.PANORAMA
+		and environment.panorama != null
+		and Pyramid.is_round(environment.filter as Pyramid.Filter)
+		and NativeLibrary.is_loaded()
+	)
+	if is_by_library:
+		return await _filter(environment)
+	return await _draw(environment)
+
+
+## The light that is being made is not wanted any more.
+func cancel() -> void:
+	if _task != null:
+		_task.call(&"cancel")
+
+
+## From 0 to 1, as far as it is known.
+func get_progress() -> float:
+	return _task.call(&"get_progress") if _task != null else 0.0
+
+
+func _filter(environment: LobeEnvironment3D) -> Variant:
+	var image := environment.panorama.get_image()
+	if image == null or image.is_empty():
+		return "The panorama's texels cannot be read: take another texture, or import its file again."
+	var request := PanoramaFilter.make_request(
+		image, environment.size, environment.filter as Pyramid.Filter
+	)
+	_task = NativeLibrary.create(&"LobeLightFilter")
+	if _task.call(&"start", request):
+		var tree := Engine.get_main_loop() as SceneTree
+		while _task.call(&"is_running"):
+			await tree.process_frame
+	var error: String = _task.call(&"get_error")
+	var result: Dictionary = _task.call(&"get_result")
+	_task = null
+	if result.is_empty():
+		return error if error else "The bake was cancelled."
+	return PanoramaFilter.make_light(request, result)
+
+
+func _draw(environment: LobeEnvironment3D) -> Variant:
+	var settings := LightSettings.new()
+	settings.node = environment
+	settings.source = environment.source as LightSettings.Source
+	settings.panorama = environment.panorama
+	settings.on_panorama_changed = func() -> void: pass
+	settings.filter = environment.filter
+	settings.size = environment.size
+	settings.capture.cull_mask = environment.capture_cull_mask
+	settings.capture.near = environment.capture_near
+	settings.capture.far = environment.capture_far
+	var drawing := LiveLight.new(settings, func(_is_other: bool) -> void: pass)
+	var is_drawn: bool = await drawing.rebuild()
+	var error := drawing.error
+	var drawn := drawing.light
+	var faces: Array[Image] = []
+	if is_drawn:
+		drawing.place()
+		faces = drawn.faces if drawing.chain == null else drawing.chain.cube.get_faces()
+	drawing.end()
+	if faces.is_empty():
+		return error if error else "The light could not be read back from the GPU."
+	var light := LobeLight.new()
+	light.faces = faces
+	light.size = drawn.size
+	light.level_variance = drawn.level_variance
+	light.base_variance = drawn.base_variance
+	light.is_even = drawn.is_even
+	light.is_of_world = not settings.takes_panorama()
+	if light.is_of_world:
+		light.axes = drawn.rotation
+	light.base_energy = drawn.energy
+	return light
