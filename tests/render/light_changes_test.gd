@@ -49,7 +49,7 @@ func test_a_new_node_takes_over_without_a_flash() -> void:
 		light.free()
 		await _frames(maxi(turn - 1, 0))
 		light = _add_light(after, 128 if turn == 2 else 8)
-		var seen := await _watch(6)
+		var seen := await _watch(5 + Kit.count_update_frames())
 		_assert_turns(seen, before, after)
 
 
@@ -62,10 +62,10 @@ func test_a_sky_takes_over_without_a_flash() -> void:
 	light.source = LobeEnvironment3D.Source.SKY
 	light.size = 16
 	_view.add_child(light)
-	_assert_turns(await _watch(6), 0.25, 1.0)
+	_assert_turns(await _watch(5 + Kit.count_update_frames()), 0.25, 1.0)
 	light.free()
 	_add_light(0.25)
-	_assert_turns(await _watch(6), 1.0, 0.25)
+	_assert_turns(await _watch(5 + Kit.count_update_frames()), 1.0, 0.25)
 
 
 func test_the_scene_of_the_tree_changes_without_a_flash() -> void:
@@ -94,7 +94,7 @@ func test_the_scene_of_the_tree_changes_without_a_flash() -> void:
 	RenderingServer.frame_post_draw.connect(_look_at_window)
 	await _frames(2)
 	get_tree().change_scene_to_file(NEW_SCENE)
-	await _frames(8)
+	await _frames(7 + Kit.count_update_frames())
 	RenderingServer.frame_post_draw.disconnect(_look_at_window)
 	# Encoded or not, as the project has its window.
 	var values: Array[float] = []
@@ -207,7 +207,7 @@ func _watch(count: int) -> Array[float]:
 
 # The same until the shader is what it was, and some frames more.
 func _watch_fade(plain: String, most := 2000) -> Array[float]:
-	var seen: Array[float] = await _watch(3)
+	var seen: Array[float] = await _watch(2 + Kit.count_update_frames())
 	for i in most:
 		if _material.get_shader_code() == plain:
 			break

@@ -63,10 +63,12 @@ func test_others_cost_no_update_while_nothing_tells_of_a_change() -> void:
 
 
 func _assert_followed(rect: ColorRect) -> void:
-	await _frames(2)
+	# Until the update under way has ended, and the next one.
+	var frames := 1 + 2 * Kit.count_update_frames()
+	await _frames(frames)
 	for colour: Color in [Color.GREEN, Color.BLUE, Color.RED]:
 		rect.color = colour
-		await _frames(3)
+		await _frames(frames)
 		var image: Image = await _view.capture()
 		var got := image.get_pixel(MIDDLE, MIDDLE)
 		var off := Vector3(got.r - colour.r, got.g - colour.g, got.b - colour.b).abs()

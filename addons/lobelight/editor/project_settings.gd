@@ -1,8 +1,9 @@
 @tool
 extends Object
-## What the project settings say of materials and probes, with defaults and ranges.
+## What the project settings say of materials, environments and probes, with defaults and ranges.
 
 const DiffuseSource := preload("../runtime/light/diffuse_source.gd")
+const EnvironmentSource := preload("../runtime/live/environment_source.gd")
 const LightStore := preload("../runtime/probes/light_store.gd")
 const ProbeSchedule := preload("../runtime/probes/probe_schedule.gd")
 
@@ -23,13 +24,19 @@ static func register() -> void:
 	)
 	_add(DiffuseSource.SETTING, 0, PROPERTY_HINT_ENUM, "Automatic,Environment,Engine")
 	_add(ProbeSchedule.SETTING, ProbeSchedule.DEFAULT_VIEWS, PROPERTY_HINT_RANGE, "1,6,1")
+	_add(
+		EnvironmentSource.BUDGET_SETTING,
+		EnvironmentSource.DEFAULT_BUDGET,
+		PROPERTY_HINT_RANGE,
+		"0,16,0.1,or_greater,suffix:ms"
+	)
 
 
-static func _add(name: String, value: int, hint: PropertyHint, range_of_values: String) -> void:
+static func _add(name: String, value: Variant, hint: PropertyHint, range_of_values: String) -> void:
 	if not ProjectSettings.has_setting(name):
 		ProjectSettings.set_setting(name, value)
 	ProjectSettings.set_initial_value(name, value)
 	ProjectSettings.set_as_basic(name, true)
 	ProjectSettings.add_property_info(
-		{"name": name, "type": TYPE_INT, "hint": hint, "hint_string": range_of_values}
+		{"name": name, "type": typeof(value), "hint": hint, "hint_string": range_of_values}
 	)

@@ -28,6 +28,11 @@ static func constant(value: float) -> ImageTexture:
 	return ImageTexture.create_from_image(image)
 
 
+## Frames in which a LobeEnvironment3D draws a change: Compatibility reads back a face in each.
+static func count_update_frames() -> int:
+	return 6 if LinearViewport.is_compatibility() else 1
+
+
 ## A table with nothing symmetric about it: lobes that differ in every component and change with the
 ## view, as no fit would make them.
 static func make_odd_table(

@@ -16,10 +16,10 @@ var _passes: Array[CanvasPass] = []
 var _faces: Array[Image] = []
 
 
-func _init(size: int, levels: Array[CanvasPass]) -> void:
+func _init(size: int, levels: Array[CanvasPass], old: TextureLayered = null) -> void:
 	slices = 6
 	_size = size
-	texture = Cubemap.new()
+	texture = old as Cubemap if old != null else Cubemap.new()
 	for level in levels.size():
 		_bytes += 8 * (size >> level) * (size >> level)
 	@warning_ignore("integer_division")

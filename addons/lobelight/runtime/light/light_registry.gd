@@ -233,6 +233,17 @@ static func is_lit_by_other(world: World3D, owner: int) -> bool:
 	return found
 
 
+## Whether materials need other shaders to show the first light of a world, which they get before
+## the next frame.
+static func needs_variants(world: World3D, is_even: bool) -> bool:
+	if _is_other_world_lit(world):
+		return true
+	_mutex.lock()
+	var found := _placed != null or _defines.is_empty() != is_even
+	_mutex.unlock()
+	return found
+
+
 # Whether there is light in another world that has not gone.
 static func _is_other_world_lit(world: World3D) -> bool:
 	_mutex.lock()

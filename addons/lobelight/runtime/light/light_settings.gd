@@ -20,12 +20,24 @@ var size := 0
 var energy := 1.0
 var measure_cost := false
 var update_mode := UpdateMode.WHEN_CHANGED
+## Whether changes are drawn in slices, as with TIME_SLICED.
+var spread_changes := false
+## Seconds from the begin of an update to that of the next one that begins by itself, at least.
+var update_interval := 0.0
 ## Whether the node is the one that lights its world.
 var is_active := false
 ## Of captures; where they are seen from is the node's position.
 var capture := ViewPlace.new()
 ## Called when a panorama has changed.
 var on_panorama_changed := Callable()
+
+
+## Whether updates are spread over frames.
+func is_sliced() -> bool:
+	return (
+		update_mode == UpdateMode.TIME_SLICED
+		or update_mode == UpdateMode.WHEN_CHANGED and spread_changes
+	)
 
 
 ## Whether the light is taken from [member panorama], by what the properties say.

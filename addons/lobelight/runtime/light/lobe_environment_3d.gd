@@ -23,12 +23,20 @@ extends Node3D
 ## colours and HDR panoramas for sRGB, so that they are not the same as in the other renderers, and
 ## below 0.00084 they are black. A panorama of the node's is the same in all three.
 ## [br][br]
-## [b]Cost.[/b] In Forward+ and Mobile, updates stay on the GPU. In Compatibility nothing can draw
-## into a cube map, so the faces are read back, which waits for the GPU: [constant TIME_SLICED] and
-## small sizes are advised there. With software drivers, 256 texels of a sky take about two thirds
-## of a frame of 720p with eight lobes, and in Compatibility 2 ms of the processor besides
-## ([code]./dev bench runtime[/code]); [member update_gpu_time] and
-## [member update_cpu_time] tell for yours. Updates allocate nothing on the GPU.
+## [b]The first frame[/b] that shows a scene has the light, unless another light is shown until it
+## has been made: a frame that nobody sees is drawn before it. Not so in the editor, with a
+## rendering thread of its own, with a headset, with lights in several worlds, with filters that are
+## not round, and with panoramas that are pictures of other viewports; there, materials show the
+## neutral light in one frame.
+## [br][br]
+## [b]Cost.[/b] In Forward+ and Mobile, updates stay on the GPU and allocate nothing there. In
+## Compatibility nothing can draw into a cube map, so the faces are read back, which waits for the
+## GPU, one in each frame but for the first light, [method rebuild] and [constant EVERY_FRAME];
+## meanwhile the engine takes memory for a face. The cube map stays; what draws it is given back 120
+## frames after the last update, and is made anew for the next one. With software drivers, 256
+## texels of a sky take about two thirds of a frame of 720p with eight lobes, and in Compatibility
+## 2 ms of the processor besides ([code]./dev bench runtime[/code]); [member update_gpu_time] and
+## [member update_cpu_time] tell for yours.
 ## [br][br]
 ## [b]Baked light.[/b] What does not change when the game runs can be filtered in the editor, by
 ## [i]Bake Light[/i] in the inspector, or by importing a panorama as [i]Light (Lobelight)[/i]:
@@ -76,7 +84,7 @@ enum UpdateMode {
 	## In every frame.
 	EVERY_FRAME,
 	## All the time, spread over frames, see [method get_sliced_frames]. The light is replaced at the
-	## end of each turn.
+	## end of each turn. The first one is drawn in one frame where no other light is shown meanwhile.
 	TIME_SLICED,
 }
 
@@ -130,6 +138,7 @@ static var _arrivals := 0
 		update_mode = value
 		_settings.update_mode = value as LightSettings.UpdateMode
 		_mark_stale()
+		notify_property_list_changed()
 		update_configuration_warnings()
 ## The surroundings, in the same projection as [PanoramaSkyMaterial]: +z in the middle, −z at the
 ## left and right edges. Linear light up to 65504; negative values and NaN count as dark. Formats
@@ -223,6 +232,19 @@ var size := 0:
 		update_configuration_warnings()
 
 @export_group("Cost")
+## Whether [constant WHEN_CHANGED] draws the light of a change in slices, one a frame, as
+## [constant TIME_SLICED] does: for skies that change slowly. The light is replaced when all have
+## been drawn.
+@export var spread_changes := false:
+	set(value):
+		spread_changes = value
+		_settings.spread_changes = value
+## Seconds between the updates that begin by themselves, at least: 0.1 for at most ten a second.
+## What changes meanwhile is drawn then. Changes of the node's own properties do not wait.
+@export_range(0.0, 10.0, 0.01, "or_greater", "suffix:s") var update_interval := 0.0:
+	set(value):
+		update_interval = maxf(value, 0.0) if is_finite(value) else 0.0
+		_settings.update_interval = update_interval
 ## Whether updates are measured. It costs a few queries of the GPU's clock per update, and updates
 ## that nothing follows are drawn again in a few frames, until the clock has answered.
 @export var measure_cost := false:
@@ -306,6 +328,10 @@ func _validate_property(property: Dictionary) -> void:
 		property.usage = PROPERTY_USAGE_EDITOR | PROPERTY_USAGE_READ_ONLY
 	elif property.name.begins_with("capture_") and source != Source.CAPTURE:
 		property.usage &= ~PROPERTY_USAGE_EDITOR
+	elif property.name == "spread_changes" and update_mode != UpdateMode.WHEN_CHANGED:
+		property.usage &= ~PROPERTY_USAGE_EDITOR
+	elif property.name == "update_interval" and update_mode == UpdateMode.ONCE:
+		property.usage &= ~PROPERTY_USAGE_EDITOR
 	if _baked != null and property.name in _OF_UPDATES:
 		property.usage &= ~PROPERTY_USAGE_EDITOR
 
@@ -344,8 +370,12 @@ func get_light() -> LobeLight:
 	return _live.light if _live != null else null
 
 
-## Frames in which [constant TIME_SLICED] makes the pyramid anew: 8 with views of a sky or a scene,
-## 2 with a panorama; 6 more in Compatibility. 0 until the first update.
+## Frames in which [constant TIME_SLICED] makes the pyramid anew: one for each of six views of a sky
+## or a scene, two or more for the levels, and in Compatibility one for each face that is read back.
+## The project setting [code]lobelight/environments/budget_ms[/code], 2 ms by default, says how long
+## the GPU may take for the levels in a frame: as long as nothing has been measured, a slow phone is
+## assumed, and slower GPUs take longer. With 0 the levels take two frames. The views take what the
+## scene takes. 0 until the first update.
 func get_sliced_frames() -> int:
 	return _live.get_slices() if _live != null else 0
 
@@ -355,9 +385,9 @@ func get_rebuild_error() -> String:
 	return _live.error if _live != null else _loss
 
 
-## Makes the pyramid anew, in one frame; three captures more follow that of a scene, see
-## [constant CAPTURE]. Changing a property does so by itself; call it when the contents of textures
-## have changed. It takes until the end of a frame: [code]await
+## Makes the pyramid anew, in one frame in every mode and renderer; three captures more follow that
+## of a scene, see [constant CAPTURE]. Changing a property does so by itself; call it when the
+## contents of textures have changed. It takes until the end of a frame: [code]await
 ## environment.rebuild()[/code] gives false if it could not be done, with the reason in
 ## [method get_rebuild_error]. A baked [member light] is there at once, and stays as it is.
 func rebuild() -> bool:
@@ -416,8 +446,8 @@ func _mark_stale() -> void:
 
 
 func _on_panorama_changed() -> void:
-	if update_mode != UpdateMode.ONCE:
-		_mark_stale()
+	if update_mode != UpdateMode.ONCE and _live != null:
+		_live.follow_change()
 	update_configuration_warnings()
 
 

@@ -14,6 +14,10 @@ const Pyramid := preload("../pyramid/pyramid.gd")
 const PyramidChain := preload("../pyramid/pyramid_chain.gd")
 const WorldLight := preload("../light/world_light.gd")
 
+## The setting with the milliseconds of the GPU in which a slice is to be drawn; 0 for as long as it
+## takes.
+const BUDGET_SETTING := "lobelight/environments/budget_ms"
+const DEFAULT_BUDGET := 2.0
 ## Where nothing says how fine the light is.
 const DEFAULT_SIZE := 256
 # Pixels of a view along the side of a texel. Skies have suns of few texels; scenes cost more.
@@ -31,6 +35,13 @@ var _light: LobeLight
 
 func _init(settings: LightSettings) -> void:
 	_settings = settings
+
+
+## Milliseconds of the GPU in which a slice is to be drawn; 0 for as long as it takes.
+static func find_budget() -> float:
+	if not ProjectSettings.has_setting(BUDGET_SETTING):
+		return DEFAULT_BUDGET
+	return maxf(ProjectSettings.get_setting_with_override(BUDGET_SETTING), 0.0)
 
 
 ## Which part of the run time it would take that this export has left out, in a sentence; empty if
@@ -90,8 +101,11 @@ func make_chain(chain: PyramidChain) -> PyramidChain:
 		if chain.views != null:
 			_place_views(chain.views)
 		return chain
+	# A chain that was given back has left its cube map with the light.
+	var old := _light.cubemap if chain == null and key == _key and _light != null else null
 	_key = key
-	_light = null
+	if old == null:
+		_light = null
 	var filter := _settings.filter
 	if _kind >= Kind.SKY_VIEWS:
 		var size: int = _settings.size if _settings.size > 0 else DEFAULT_SIZE
@@ -107,7 +121,7 @@ func make_chain(chain: PyramidChain) -> PyramidChain:
 		chain.pyramid.set_up_panorama(panorama, size, filter, _kind == Kind.SKY_PANORAMA)
 		if not panorama.changed.is_connected(_settings.on_panorama_changed):
 			panorama.changed.connect(_settings.on_panorama_changed)
-	chain.make_cube()
+	chain.make_cube(old)
 	if _settings.measure_cost:
 		chain.measure()
 	return chain
@@ -129,6 +143,13 @@ func get_light(chain: PyramidChain) -> LobeLight:
 		_light.base_variance = chain.pyramid.level_0_variance
 		_light.is_even = Pyramid.is_round(chain.pyramid.filter)
 	return _light
+
+
+## Whether what it shows does not come with the frame itself, as pictures of other viewports do.
+func is_there_before_the_frame() -> bool:
+	if _kind != Kind.PANORAMA and _kind != Kind.SKY_PANORAMA:
+		return true
+	return not LiveTextures.is_live(_find_panorama())
 
 
 ## Gives a light that was made from this kind of source its rotation and energy; whether they are
@@ -162,7 +183,11 @@ func find_shortage() -> String:
 ## To be called when the node leaves its world; whether its light has been that world's.
 func leave_world() -> bool:
 	_world = null
-	return _kind != Kind.PANORAMA and _kind != Kind.NONE
+	if _kind == Kind.PANORAMA or _kind == Kind.NONE:
+		return false
+	# That world may go on showing it.
+	_light = null
+	return true
 
 
 func _find_kind() -> Kind:

@@ -4,6 +4,7 @@ extends RefCounted
 ## came of it. Exports leave it out where all light is baked.
 
 const EnvironmentSource := preload("environment_source.gd")
+const FirstFrame := preload("first_frame.gd")
 const FrameWait := preload("../light/frame_wait.gd")
 const LightRegistry := preload("../light/light_registry.gd")
 const LightSettings := preload("../light/light_settings.gd")
@@ -17,8 +18,6 @@ const _IDLE_FRAMES := 120
 const _ECHOES := 3
 # Milliseconds in which a scene may still get the sky that its light lacks.
 const _PATIENCE := 2000
-# What is drawn in one frame has no slices.
-const _WHOLE := -1
 
 ## What has been drawn; [code]null[/code] until then, and where it cannot be.
 var light: LobeLight
@@ -36,13 +35,20 @@ var frames := 0
 var _settings: LightSettings
 # To be called when an update has ended; whether the light is another object than before.
 var _on_end: Callable
-# Whether the light is older than the properties.
+# Whether the light is older than the properties, and whether what it is made from has told that it
+# is another.
 var _stale := true
+var _is_told_of_change := false
 var _kind := EnvironmentSource.Kind.NONE
-# Of the update under way: whether there is one, which slice comes next, and whether it is drawn.
+# Of the update under way: whether there is one, how it is spread over frames, in how many, which
+# slice comes next, and whether it is drawn.
 var _running := false
-var _slice := _WHOLE
+var _pace := PyramidChain.Pace.WHOLE
+var _count := 1
+var _slice := 0
 var _drawn := false
+# When the next one may begin by itself, in milliseconds.
+var _next_time := 0
 var _idle := 0
 var _waits: Array[FrameWait] = []
 var _is_watching := false
@@ -78,9 +84,17 @@ func mark_stale() -> void:
 	_watch_frames()
 
 
+## What the light is made from tells that it is another.
+func follow_change() -> void:
+	_is_told_of_change = true
+	if light == null:
+		_stale = true
+	_watch_frames()
+
+
 ## Whether a light is to come that has not been drawn yet.
 func is_awaited() -> bool:
-	return _stale and source.find_obstacle().is_empty()
+	return (_stale or _running and light == null) and source.find_obstacle().is_empty()
 
 
 ## Frames in which an update that is spread over frames is drawn; 0 until the first.
@@ -95,7 +109,7 @@ func get_gpu_time() -> float:
 
 ## Draws the light anew, in one frame; whether it could be done.
 func rebuild() -> bool:
-	if not _begin(_WHOLE):
+	if not _begin(PyramidChain.Pace.WHOLE):
 		return false
 	return await _wait()
 
@@ -174,7 +188,8 @@ func _stop_watching() -> void:
 
 # While nothing can change but by what calls the node, nothing is called in each frame.
 func _rest_if_settled() -> void:
-	if _running or chain != null or _settings.is_active and (_stale or _echoes > 0):
+	var is_due := _stale or _is_told_of_change or _echoes > 0
+	if _running or chain != null or _settings.is_active and is_due:
 		return
 	var is_still := _settings.update_mode == LightSettings.UpdateMode.ONCE
 	if (
@@ -196,6 +211,8 @@ func _on_frame_pre_draw() -> void:
 			chain.draw(_slice)
 		_drawn = true
 		_idle = 0
+		if _count == 1 and _settings.is_active and _is_first():
+			_draw_ahead()
 	elif chain != null and not chain.draw_for_clock():
 		_idle += 1
 		var is_over := _settings.update_mode == LightSettings.UpdateMode.ONCE
@@ -204,6 +221,23 @@ func _on_frame_pre_draw() -> void:
 			chain = null
 	if chain == null:
 		_rest_if_settled()
+
+
+# Has the first light in the first frame that is seen, where that is possible.
+func _draw_ahead() -> void:
+	var is_even := Pyramid.is_round(_settings.filter as Pyramid.Filter)
+	if LightRegistry.needs_variants(_settings.node.get_world_3d(), is_even):
+		return
+	if chain == null or source.is_there_before_the_frame() and FirstFrame.draw():
+		_take_drawn()
+
+
+# Whether materials show no light until this one comes.
+func _is_first() -> bool:
+	var owner := _settings.node.get_instance_id()
+	if light != null or not _settings.node.is_inside_tree():
+		return light == null
+	return not LightRegistry.is_lit_by_other(_settings.node.get_world_3d(), owner)
 
 
 func _start_if_due() -> void:
@@ -215,25 +249,35 @@ func _start_if_due() -> void:
 		if _echoes > 0:
 			var changed := mode == LightSettings.UpdateMode.WHEN_CHANGED and source.look()
 			var echoes := _ECHOES if changed else _echoes - 1
-			if _begin(_WHOLE):
+			if _begin(PyramidChain.Pace.FACE_BY_FACE):
 				_echoes = echoes
 			return
 		if mode == LightSettings.UpdateMode.ONCE:
 			return
 		if _kind == EnvironmentSource.Kind.SKY_PANORAMA and place():
 			LightRegistry.update_placement(light, true)
-		_stale = _is_continual() or source.look()
+		if Time.get_ticks_msec() < _next_time:
+			return
+		_stale = _is_continual() or source.look() or _is_told_of_change
 		if not _stale:
 			return
-	var is_sliced := mode == LightSettings.UpdateMode.TIME_SLICED
-	if is_sliced and chain != null and chain.awaits_clock():
+	var pace := _find_pace()
+	if pace == PyramidChain.Pace.SLICED and chain != null and chain.awaits_clock():
 		return
-	_begin(0 if is_sliced and light != null else _WHOLE)
+	_begin(pace)
+
+
+func _find_pace() -> PyramidChain.Pace:
+	if _is_first() or _settings.update_mode == LightSettings.UpdateMode.EVERY_FRAME:
+		return PyramidChain.Pace.WHOLE
+	return PyramidChain.Pace.SLICED if _settings.is_sliced() else PyramidChain.Pace.FACE_BY_FACE
 
 
 # Starts an update from its first slice, instead of one under way.
-func _begin(slice: int) -> bool:
+func _begin(pace: PyramidChain.Pace) -> bool:
 	_stale = false
+	_is_told_of_change = false
+	_next_time = Time.get_ticks_msec() + roundi(1000.0 * _settings.update_interval)
 	_running = false
 	error = source.find_obstacle()
 	var loss := source.find_loss() if error.is_empty() else ""
@@ -254,8 +298,14 @@ func _begin(slice: int) -> bool:
 		return false
 	source.look()
 	chain = source.make_chain(chain)
-	_slice = slice if chain != null else _WHOLE
+	_pace = pace
 	_prepare_capture()
+	_slice = 0
+	_count = 1
+	if chain != null:
+		if _settings.is_sliced():
+			chain.limit(EnvironmentSource.find_budget())
+		_count = chain.plan(_pace)
 	_running = true
 	_drawn = false
 	_watch_frames()
@@ -270,7 +320,7 @@ func _prepare_capture() -> void:
 	_lit_by_itself = _lit_by_itself and captures
 	if captures and _settings.is_active and not _lit_by_itself:
 		_lit_by_itself = true
-		_slice = _WHOLE
+		_pace = PyramidChain.Pace.WHOLE
 		var world := _settings.node.get_world_3d()
 		var owner := _settings.node.get_instance_id()
 		if LightRegistry.is_lit_by_other(world, owner):
@@ -288,8 +338,11 @@ func _is_continual() -> bool:
 
 
 func _on_frame_post_draw() -> void:
-	if not _running or not _drawn:
-		return
+	if _running and _drawn:
+		_take_drawn()
+
+
+func _take_drawn() -> void:
 	_drawn = false
 	if chain != null and not chain.receive(_slice):
 		_running = false
@@ -298,12 +351,11 @@ func _on_frame_post_draw() -> void:
 		push_warning("LobeEnvironment3D: " + error)
 		_set_light(null)
 		return
-	if _slice != _WHOLE:
-		_slice += 1
-		if _slice < chain.get_slices():
-			return
+	_slice += 1
+	if _slice < _count:
+		return
 	_running = false
-	frames = 1 if _slice == _WHOLE else _slice
+	frames = _count
 	cpu_time = chain.transfer_time if chain != null else 0.0
 	if chain == null:
 		_gpu_time = 0.0

@@ -8,6 +8,11 @@ extends RefCounted
 
 var viewport: RID
 
+var _extent: Vector2i
+# Of the rectangles.
+var _items: Array[RID] = []
+# Whether the last draw was of some rows only.
+var _is_clipped := false
 # Freed in this order.
 var _rids: Array[RID] = []
 
@@ -24,6 +29,7 @@ func _init(extent: Vector2i, half_floats: bool) -> void:
 	server.viewport_set_update_mode(viewport, RenderingServer.VIEWPORT_UPDATE_DISABLED)
 	server.viewport_set_active(viewport, true)
 	_rids.append(viewport)
+	_extent = extent
 
 
 func _notification(what: int) -> void:
@@ -45,14 +51,33 @@ func add_rect(rect: Rect2i, shader: Shader, parameters: Dictionary[StringName, V
 	var canvas := server.canvas_create()
 	server.canvas_item_set_parent(item, canvas)
 	server.viewport_attach_canvas(viewport, canvas)
+	_items.append(item)
 	_rids.append_array([canvas, item, material])
 	return material
 
 
 ## Has the pass drawn in the next frame.
 func draw() -> void:
+	if _is_clipped:
+		_clip(Rect2i(Vector2i.ZERO, _extent), RenderingServer.VIEWPORT_CLEAR_ALWAYS)
+		_is_clipped = false
+	RenderingServer.viewport_set_update_mode(viewport, RenderingServer.VIEWPORT_UPDATE_ONCE)
+
+
+## Has [param count] rows from [param first] on drawn in the next frame; the others stay.
+func draw_rows(first: int, count: int) -> void:
+	_clip(Rect2i(0, first, _extent.x, count), RenderingServer.VIEWPORT_CLEAR_NEVER)
+	_is_clipped = true
 	RenderingServer.viewport_set_update_mode(viewport, RenderingServer.VIEWPORT_UPDATE_ONCE)
 
 
 func get_texture() -> RID:
 	return RenderingServer.viewport_get_texture(viewport)
+
+
+# Items that clip do so by their rectangle.
+func _clip(rect: Rect2i, clear_mode: RenderingServer.ViewportClearMode) -> void:
+	for item in _items:
+		RenderingServer.canvas_item_set_custom_rect(item, true, rect)
+		RenderingServer.canvas_item_set_clip(item, true)
+	RenderingServer.viewport_set_clear_mode(viewport, clear_mode)

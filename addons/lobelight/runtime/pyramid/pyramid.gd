@@ -48,6 +48,10 @@ const _MAX_SAMPLES := 8
 const _BASE_SHARE := 0.5
 # The variance of the tent by which levels are looked up, in texels.
 const _TENT_VARIANCE := 1.0 / 6.0
+# What finding a texel's place costs, in fetches, and by filter what lies under the kernels: discs
+# have radii of 3.6 texels of the finer level, Gaussians end at 4.9.
+const _PLACE_FETCHES := 6.0
+const _LEVEL_FETCHES: Array[float] = [4.0, 16.0, 75.0, 45.0]
 
 var size := 0
 var filter := Filter.DISC
@@ -56,6 +60,8 @@ var level_0_variance := 0.0
 ## The passes, the finest level first.
 var levels: Array[CanvasPass] = []
 
+# Of a texel, by level.
+var _fetches: Array[float] = []
 # Keeps it on the GPU until it has been drawn.
 var _panorama: Texture2D
 
@@ -125,6 +131,7 @@ func set_up_panorama(
 		&"kernel_variance": level_0_variance,
 		&"shrinking_variance": _TENT_VARIANCE,
 	}
+	_fetches = [_PLACE_FETCHES + _count_panorama_fetches(panorama.get_width(), face_size)]
 	_set_up_levels(face_size, used_filter, PanoramaShader, parameters)
 
 
@@ -134,14 +141,32 @@ func set_up_views(views: Array[RID], samples: int, face_size: int, used_filter: 
 	var parameters: Dictionary[StringName, Variant] = {&"face_size": face_size, &"samples": samples}
 	for face in 6:
 		parameters[StringName("view_%d" % face)] = views[face]
+	_fetches = [_PLACE_FETCHES + samples * samples]
 	var shader: Shader = OnDemand.fetch(_VIEWS_SHADER, OnDemand.SKIES)
 	_set_up_levels(face_size, used_filter, shader, parameters)
 
 
-## Has levels [param first] to [param last] drawn in the next frame, all of them by default.
-func draw(first := 0, last := -1) -> void:
-	for level in range(first, levels.size() if last < 0 else last + 1):
+## Has all levels drawn in the next frame.
+func draw() -> void:
+	for level in levels:
+		level.draw()
+
+
+## Has [param count] rows of a level from [param first] on drawn in the next frame.
+func draw_rows(level: int, first: int, count: int) -> void:
+	if count == count_rows(level):
 		levels[level].draw()
+	else:
+		levels[level].draw_rows(first, count)
+
+
+func count_rows(level: int) -> int:
+	return ROWS * (size >> level)
+
+
+## About the fetches that drawing a level takes.
+func count_fetches(level: int) -> float:
+	return _fetches[level] * COLUMNS * (size >> level) * count_rows(level)
 
 
 func _set_up_levels(
@@ -164,7 +189,18 @@ func _set_up_levels(
 		else:
 			level[&"binomial"] = filter == Filter.BINOMIAL
 			_add_level(level_size, OnDemand.fetch(_REDUCE_SHADER, OnDemand.FILTERS), level)
+		_fetches.append(_PLACE_FETCHES + _LEVEL_FETCHES[filter])
 		level_size >>= 1
+
+
+func _count_panorama_fetches(width: int, face_size: int) -> float:
+	var samples := count_samples(width, face_size)
+	if level_0_variance == 0.0:
+		return samples * samples * (4.0 + _PLACE_FETCHES)
+	# The square's side in texels of the panorama on the equator, and one texel to mix with on both
+	# sides; around the sphere, pi / 2 times as many columns.
+	var side := sqrt(12.0 * level_0_variance) * width / (PI * face_size)
+	return (side + 2.0) * (0.5 * PI * side + 2.0)
 
 
 func _add_level(

@@ -3,10 +3,14 @@ extends RefCounted
 ## From a source of light to a cube map: six views where there are any, the levels of the pyramid,
 ## and the cube that takes them.
 ##
-## An update is drawn in one frame, or in slices of one frame each: the views, levels 0 and 1, the
-## other levels, and in Compatibility the faces that are read back. The cube map changes with the
-## last slice. Updates allocate nothing on the GPU.
+## An update is drawn in one frame, or in slices of one frame each, see
+## [code]chain_slices.gd[/code]. The cube map changes with the last slice.
 
+## How an update is spread over frames: not at all; drawn in one frame, but in Compatibility read
+## back a face a frame; in slices.
+enum Pace { WHOLE, FACE_BY_FACE, SLICED }
+
+const ChainSlices := preload("chain_slices.gd")
 const FaceViews := preload("face_views.gd")
 const OnDemand := preload("../on_demand.gd")
 const Pyramid := preload("pyramid.gd")
@@ -18,6 +22,11 @@ const _PACKED_CUBE := "res://addons/lobelight/runtime/compatibility/packed_cube.
 # The engine tells some frames later what drawing a viewport took, and only if it draws it in that
 # frame as well.
 const _CLOCK_FRAMES := 8
+# What a GPU does in a millisecond at least, in fetches of [code]Pyramid.count_fetches[/code]: a
+# phone of 2013. Faster ones are measured.
+const _LEAST_SPEED := 0.4e6
+# Measured times are not taken to be shorter.
+const _SHORTEST_TIME := 0.05
 
 ## Null if the light comes from a panorama.
 var views: FaceViews
@@ -26,9 +35,18 @@ var cube: PyramidCube
 ## Milliseconds that the processor spent on the last update's transfer to the cube map.
 var transfer_time := 0.0
 
+var _pace := Pace.SLICED
+var _slices: Array[ChainSlices.Slice] = []
+# Milliseconds of the GPU in which a slice is to be drawn; 0 for as long as it takes.
+var _budget := 0.0
+var _speed := _LEAST_SPEED
+# The fetches of the finest level in its last draws.
+var _drawn: PackedFloat64Array = []
 var _is_measured := false
-# Frames in which the last update is still to be drawn again for the clock's sake.
+# Frames in which the last update is still to be drawn again for the clock's sake, and what came of
+# it: what is drawn in slices is measured as a whole.
 var _clock_frames := 0
+var _clock_time := 0.0
 
 
 func _init(drawn_views: FaceViews = null) -> void:
@@ -42,53 +60,69 @@ static func find_loss() -> String:
 	return OnDemand.find_loss(_PACKED_CUBE, OnDemand.COMPATIBILITY)
 
 
-## To be called once the pyramid has been set up.
-func make_cube() -> void:
+## To be called once the pyramid has been set up. A cube map of the same size may be taken over.
+func make_cube(texture: TextureLayered = null) -> void:
 	var script: GDScript
 	if _stays_on_gpu():
 		script = OnDemand.fetch(_GPU_CUBE, OnDemand.RENDERING_DEVICE)
 	else:
 		script = OnDemand.fetch(_PACKED_CUBE, OnDemand.COMPATIBILITY)
-	cube = script.new(pyramid.size, pyramid.levels)
+	cube = script.new(pyramid.size, pyramid.levels, texture)
+	plan(Pace.SLICED)
+
+
+## Has slices take no more than some milliseconds of the GPU, as well as that can be known; the
+## views take what they take. What the GPU does in a millisecond is measured while slices are drawn.
+func limit(milliseconds: float) -> void:
+	_budget = milliseconds
+	var viewport := pyramid.levels[0].viewport
+	RenderingServer.viewport_set_measure_render_time(viewport, _budget > 0.0 or _is_measured)
+
+
+## Makes the slices of the next update; how many they are.
+func plan(pace: Pace) -> int:
+	_pace = pace
+	_slices = _make_slices(pace)
+	return _slices.size()
 
 
 ## Frames that an update takes if it is spread over frames.
 func get_slices() -> int:
-	var faces := 6 if views != null else 0
-	# What is not read back is taken with the last levels.
-	return faces + (2 if cube.slices == 1 else 2 + cube.slices)
+	return _slices.size() if _pace == Pace.SLICED else _make_slices(Pace.SLICED).size()
 
 
 ## Has a slice of an update drawn in the next frame; all of it if [param slice] is negative.
 func draw(slice: int) -> void:
-	var faces := 6 if views != null else 0
-	for face in faces:
-		if slice == face or slice < 0:
-			views.draw(face)
 	if slice < 0:
+		for face in 6 if views != null else 0:
+			views.draw(face)
 		pyramid.draw()
-	elif slice == faces:
-		pyramid.draw(0, 1)
-	elif slice == faces + 1:
-		pyramid.draw(2)
-	for part in cube.slices:
-		if slice == faces + 2 + part or slice < 0:
+		for part in cube.slices:
 			cube.draw(part)
+		_measure_speed(pyramid.count_fetches(0))
+		return
+	for face in _slices[slice].views:
+		views.draw(face)
+	for rows in _slices[slice].rows:
+		pyramid.draw_rows(rows.x, rows.y, rows.z)
+		if rows.x == 0:
+			_measure_speed(pyramid.count_fetches(0) * rows.z / pyramid.count_rows(0))
+	for part in _slices[slice].parts:
+		cube.draw(part)
 
 
 ## After the frame: takes what the slice has drawn. False if nothing was drawn.
 func receive(slice: int) -> bool:
 	var start := Time.get_ticks_usec()
-	var first := get_slices() - cube.slices
-	if slice <= first:
+	if slice <= 0:
 		transfer_time = 0.0
 	var received := true
-	for part in cube.slices:
-		if slice == first + part or slice < 0:
-			received = cube.receive(part) and received
+	for part in _slices[slice].parts if slice >= 0 else PackedInt32Array(range(cube.slices)):
+		received = cube.receive(part) and received
 	transfer_time += 0.001 * (Time.get_ticks_usec() - start)
 	# All of it takes what its slices take, so that these need not be measured each time.
-	if _is_measured and (slice < 0 or slice == get_slices() - 1 and get_gpu_time() == 0.0):
+	var is_last := slice < 0 or slice == _slices.size() - 1
+	if _is_measured and is_last and (_pace != Pace.SLICED or _clock_time == 0.0):
 		_clock_frames = _CLOCK_FRAMES
 	return received
 
@@ -111,11 +145,46 @@ func draw_for_clock() -> bool:
 		return false
 	_clock_frames -= 1
 	draw(-1)
+	_clock_time = _sum_times()
 	return true
 
 
 ## Milliseconds of the GPU for an update, as last measured; it comes some frames late.
 func get_gpu_time() -> float:
+	return _sum_times() if _slices.size() == 1 else _clock_time
+
+
+func _make_slices(pace: Pace) -> Array[ChainSlices.Slice]:
+	var faces := 6 if views != null else 0
+	if pace == Pace.SLICED:
+		var most := _budget * _speed if _budget > 0.0 else INF
+		return ChainSlices.spread(faces, pyramid, cube.slices, most)
+	var at_once := cube.slices if pace == Pace.WHOLE else 1
+	return ChainSlices.at_once(faces, pyramid, cube.slices, at_once)
+
+
+# To be called when the finest level is drawn, with what that takes. The engine tells of a draw when
+# the same viewport is drawn some frames later. Which one it was is not said: the least of the last
+# ones is assumed.
+func _measure_speed(fetches_now: float) -> void:
+	const LATEST := 4
+	if _budget == 0.0:
+		return
+	_drawn.append(fetches_now)
+	if _drawn.size() <= LATEST:
+		return
+	_drawn = _drawn.slice(-LATEST)
+	var viewport := pyramid.levels[0].viewport
+	var time := RenderingServer.viewport_get_measured_render_time_gpu(viewport)
+	if time == 0.0:
+		return
+	var least := INF
+	for fetches in _drawn:
+		least = minf(least, fetches)
+	_speed = maxf(lerpf(_speed, least / maxf(time, _SHORTEST_TIME), 0.25), _LEAST_SPEED)
+
+
+func _sum_times() -> float:
 	var time := 0.0
 	for viewport in _get_viewports():
 		time += RenderingServer.viewport_get_measured_render_time_gpu(viewport)

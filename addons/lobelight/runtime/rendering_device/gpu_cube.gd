@@ -11,22 +11,9 @@ var _copy: Callable
 var _outcome: Array[Error] = [OK]
 
 
-func _init(size: int, levels: Array[CanvasPass]) -> void:
-	var format := RDTextureFormat.new()
-	format.texture_type = RenderingDevice.TEXTURE_TYPE_CUBE
-	format.format = RenderingDevice.DATA_FORMAT_R16G16B16A16_SFLOAT
-	format.width = size
-	format.height = size
-	format.array_layers = 6
-	format.mipmaps = levels.size()
-	format.usage_bits = (
-		RenderingDevice.TEXTURE_USAGE_SAMPLING_BIT
-		| RenderingDevice.TEXTURE_USAGE_CAN_COPY_TO_BIT
-		| RenderingDevice.TEXTURE_USAGE_CAN_COPY_FROM_BIT
-	)
-	var device := RenderingServer.get_rendering_device()
-	var cube := device.texture_create(format, RDTextureView.new())
-	texture = OwnedCubemap.new(cube)
+func _init(size: int, levels: Array[CanvasPass], old: TextureLayered = null) -> void:
+	texture = old as OwnedCubemap if old != null else _make_texture(size, levels.size())
+	var cube: RID = texture.texture_rd_rid
 	var atlases: Array[RID] = []
 	for level in levels:
 		atlases.append(RenderingServer.texture_get_rd_texture(level.get_texture()))
@@ -44,6 +31,23 @@ func get_faces() -> Array[Image]:
 	for face in 6:
 		faces.append(texture.get_layer_data(face))
 	return faces
+
+
+static func _make_texture(size: int, levels: int) -> OwnedCubemap:
+	var format := RDTextureFormat.new()
+	format.texture_type = RenderingDevice.TEXTURE_TYPE_CUBE
+	format.format = RenderingDevice.DATA_FORMAT_R16G16B16A16_SFLOAT
+	format.width = size
+	format.height = size
+	format.array_layers = 6
+	format.mipmaps = levels
+	format.usage_bits = (
+		RenderingDevice.TEXTURE_USAGE_SAMPLING_BIT
+		| RenderingDevice.TEXTURE_USAGE_CAN_COPY_TO_BIT
+		| RenderingDevice.TEXTURE_USAGE_CAN_COPY_FROM_BIT
+	)
+	var device := RenderingServer.get_rendering_device()
+	return OwnedCubemap.new(device.texture_create(format, RDTextureView.new()))
 
 
 static func _copy_levels(cube: RID, size: int, atlases: Array[RID], outcome: Array[Error]) -> void:

@@ -1,0 +1,66 @@
+@tool
+extends RefCounted
+## How the update of a chain is spread over frames: what is drawn in which of them.
+
+
+## What is drawn and taken in one frame.
+class Slice:
+	## Views, by their faces.
+	var views: PackedInt32Array = []
+	## Of levels: the level, its first row, how many rows.
+	var rows: Array[Vector3i] = []
+	## Parts of what the cube map takes.
+	var parts: PackedInt32Array = []
+
+
+const Pyramid := preload("pyramid.gd")
+
+# Levels that are drawn before the others in any case: with the rest they would be too much at once.
+const _LARGE_LEVELS := 2
+
+
+## All in one frame, but that of what the cube map takes only [param parts_at_once] parts are taken
+## in a frame.
+static func at_once(views: int, pyramid: Pyramid, parts: int, parts_at_once: int) -> Array[Slice]:
+	var slices: Array[Slice] = []
+	for part in parts:
+		if part % parts_at_once == 0:
+			slices.append(Slice.new())
+		slices.back().parts.append(part)
+	slices[0].views = PackedInt32Array(range(views))
+	for level in pyramid.levels.size():
+		slices[0].rows.append(Vector3i(level, 0, pyramid.count_rows(level)))
+	return slices
+
+
+## Spread over frames: each view, the large levels, the others, each part. Levels are spread further
+## where a frame would have more than [param most] fetches.
+static func spread(views: int, pyramid: Pyramid, parts: int, most: float) -> Array[Slice]:
+	var slices: Array[Slice] = []
+	for view in views:
+		slices.append(Slice.new())
+		slices.back().views.append(view)
+	var left := 0.0
+	for level in pyramid.levels.size():
+		if level == 0 or level == _LARGE_LEVELS:
+			slices.append(Slice.new())
+			left = most
+		var rows := pyramid.count_rows(level)
+		var row_cost := pyramid.count_fetches(level) / rows
+		var row := 0
+		while row < rows:
+			var count := mini(floori(minf(left / row_cost, rows)), rows - row)
+			if count == 0 and not slices.back().rows.is_empty():
+				slices.append(Slice.new())
+				left = most
+				continue
+			count = maxi(count, 1)
+			slices.back().rows.append(Vector3i(level, row, count))
+			left -= count * row_cost
+			row += count
+	# What is not read back is taken with the last levels.
+	for part in parts:
+		if parts > 1:
+			slices.append(Slice.new())
+		slices.back().parts.append(part)
+	return slices
