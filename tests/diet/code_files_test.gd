@@ -96,7 +96,7 @@ const BRANCHES := [
 
 
 func _code(scene: String) -> CodeFiles:
-	return Diet.of_files(ProjectFiles.of_scene(SCENES + scene + ".tscn")).code
+	return Diet.of_files(ProjectFiles.of_scene(SCENES + scene + ".tscn"), 0.0, true, false).code
 
 
 func test_files_of_features_that_nothing_reaches_stay_out(
@@ -115,7 +115,7 @@ func test_scripts_keep_the_files_that_they_may_ask_for(
 
 
 func _expect_features(files: PackedStringArray, needed: Array) -> void:
-	var code: CodeFiles = Diet.of_files(files).code
+	var code: CodeFiles = Diet.of_files(files, 0.0, true, false).code
 	for feature in FEATURES.size():
 		var file := code.files[RUN_TIME + FEATURES[feature]]
 		assert_bool(file.after > 500).is_equal(feature in needed)
@@ -182,7 +182,7 @@ func test_folders_of_features_stay_or_go_whole() -> void:
 		for script: Array in [[], [probes]]:
 			var files := ProjectFiles.of_scene(SCENES + name + ".tscn")
 			files.append_array(PackedStringArray(script))
-			var code: CodeFiles = Diet.of_files(files).code
+			var code: CodeFiles = Diet.of_files(files, 0.0, true, false).code
 			for folder: String in CodeFiles.Features.FOLDERS:
 				var sizes := _sizes(code, RUN_TIME + folder + "/")
 				assert_int(sizes.size()).append_failure_message(folder).is_greater(0)
@@ -236,7 +236,7 @@ func test_shaders_lose_their_comments_and_nothing_else() -> void:
 	_write(probes, "extends LobeProbe3D\n\n\nfunc give(name, value):\n\tself.set(name, value)\n")
 	var files := ProjectFiles.of_scene(SCENES + "everything.tscn")
 	files.append(probes)
-	var code: CodeFiles = Diet.of_files(files).code
+	var code: CodeFiles = Diet.of_files(files, 0.0, true, false).code
 	DirAccess.remove_absolute(probes)
 	var shaders := 0
 	for path in code.files:
@@ -254,7 +254,7 @@ func test_a_feature_that_the_project_names_itself_is_not_empty() -> void:
 	var path := RUN_TIME + FEATURES[0]
 	_write(file, 'extends Node\n\nvar code := "#include \\"%s\\"\\n"\n' % path)
 	for files: Array in [[SCENES + "isotropic.tscn", file], [file, SCENES + "isotropic.tscn"]]:
-		var code: CodeFiles = Diet.of_files(PackedStringArray(files)).code
+		var code: CodeFiles = Diet.of_files(PackedStringArray(files), 0.0, true, false).code
 		assert_int(code.files[path].after).is_greater(500)
 	DirAccess.remove_absolute(file)
 
@@ -313,7 +313,7 @@ func test_what_is_loaded_goes_along(
 func test_a_script_that_puts_paths_together_keeps_all_files() -> void:
 	var file := "user://diet_path.gd"
 	_write(file, 'extends Node\n\nvar folder := "res://addons/lobelight/runtime"\n')
-	var code: CodeFiles = Diet.of_files(PackedStringArray([file])).code
+	var code: CodeFiles = Diet.of_files(PackedStringArray([file]), 0.0, true, false).code
 	DirAccess.remove_absolute(file)
 	for path in code.files:
 		assert_int(code.files[path].after).is_greater(0)
@@ -324,7 +324,7 @@ func test_a_script_may_name_files_by_their_uids() -> void:
 	var id := ResourceLoader.get_resource_uid(RUN_TIME + "light/lobe_environment_3d.gd")
 	var uid := ResourceUID.id_to_text(id)
 	_write(file, 'extends Node\n\nconst A := preload("%s")\nconst B := "uid://none"\n' % uid)
-	var code: CodeFiles = Diet.of_files(PackedStringArray([file])).code
+	var code: CodeFiles = Diet.of_files(PackedStringArray([file]), 0.0, true, false).code
 	DirAccess.remove_absolute(file)
 	assert_int(code.files[RUN_TIME + "light/lobe_environment_3d.gd"].after).is_greater(0)
 	assert_int(code.files[RUN_TIME + "material/lobe_material_3d.gd"].after).is_equal(0)

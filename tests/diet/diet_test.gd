@@ -59,7 +59,7 @@ const SURFACES := [
 
 
 func _diet(scene: String) -> Diet:
-	return Diet.of_files(ProjectFiles.of_scene(SCENES + scene + ".tscn"))
+	return Diet.of_files(ProjectFiles.of_scene(SCENES + scene + ".tscn"), 0.0, true, false)
 
 
 func test_left_of_the_sets(
@@ -82,7 +82,7 @@ func test_the_set_of_sheens_goes_along_where_one_is_drawn() -> void:
 		material.sheen_roughness = roughness
 		files.append("user://diet_sheen_%d.tres" % files.size())
 		ResourceSaver.save(material, files[-1])
-	var share: Diet.Share = Diet.of_files(files.slice(0, 1)).shares[CHARLIE]
+	var share: Diet.Share = Diet.of_files(files.slice(0, 1), 0.0, true, false).shares[CHARLIE]
 	assert_bool(share.is_left_out()).is_false()
 	assert_int(share.after).is_less(share.before)
 	files.append("user://diet_sheen.res")
@@ -98,7 +98,7 @@ func test_the_set_of_sheens_goes_along_where_one_is_drawn() -> void:
 	var file := FileAccess.open(files[-1], FileAccess.WRITE)
 	file.store_string("extends Node\n\n\nfunc f(m):\n\tm.sheen_roughness = 0.2\n")
 	file.close()
-	share = Diet.of_files(files).shares[CHARLIE]
+	share = Diet.of_files(files, 0.0, true, false).shares[CHARLIE]
 	assert_int(share.after).is_equal(share.before)
 	for path in files:
 		DirAccess.remove_absolute(path)

@@ -52,7 +52,7 @@ func test_a_small_panorama_is_not_enlarged() -> void:
 
 func test_a_scene_is_exported_with_the_size() -> void:
 	var path := "res://tests/diet/scenes/isotropic.tscn"
-	var diet := Diet.of_files(ProjectFiles.of_scene(path))
+	var diet := Diet.of_files(ProjectFiles.of_scene(path), 0.0, true, false)
 	assert_int(diet.fit.size).is_greater(0)
 	var file := "user://diet_scene.scn"
 	var written := FileAccess.open(file, FileAccess.WRITE)

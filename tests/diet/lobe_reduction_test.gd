@@ -84,7 +84,7 @@ func test_sets_of_one_are_equal_bytes_and_small() -> void:
 
 
 func test_without_a_target_nothing_changes() -> void:
-	var diet := Diet.of_files(ProjectFiles.of_scene(SCENES + "isotropic.tscn"))
+	var diet := Diet.of_files(ProjectFiles.of_scene(SCENES + "isotropic.tscn"), 0.0, true, false)
 	assert_dict(diet.lobes.tables).is_empty()
 	assert_dict(diet.lobes.kept).is_empty()
 	assert_bool(diet.shares[GGX].is_left_out()).is_false()
@@ -93,7 +93,7 @@ func test_without_a_target_nothing_changes() -> void:
 func test_what_is_not_one_table_keeps_its_lobes(
 	scene: String, word: String, _test_parameters := KEPT
 ) -> void:
-	var diet := Diet.of_files(ProjectFiles.of_scene(SCENES + scene + ".tscn"), 30.0)
+	var diet := Diet.of_files(ProjectFiles.of_scene(SCENES + scene + ".tscn"), 30.0, true, false)
 	assert_dict(diet.lobes.tables).is_empty()
 	assert_int(diet.lobes.kept.size()).is_greater(0)
 	for reason: String in diet.lobes.kept.values():
@@ -149,7 +149,7 @@ func test_neighbouring_widths_do_not_share_a_table() -> void:
 # The BRDF itself is the judge: fewer lobes are further from it than more, and near it still.
 func test_the_fewest_lobes_are_fitted_and_the_set_goes() -> void:
 	var path := SCENES + "isotropic.tscn"
-	var diet := Diet.of_files(ProjectFiles.of_scene(path), 28.0)
+	var diet := Diet.of_files(ProjectFiles.of_scene(path), 28.0, true, false)
 	assert_int(diet.lobes.tables.size()).is_equal(1)
 	var reduced: ReducedTable = diet.lobes.tables.values()[0]
 	assert_int(reduced.table.lobe_count).is_between(2, 7)
@@ -165,13 +165,13 @@ func test_the_fewest_lobes_are_fitted_and_the_set_goes() -> void:
 	assert_int(report["lobes"][0]["lobes"]).is_equal(reduced.table.lobe_count)
 	assert_int(report["lobes"][0]["lobes_before"]).is_equal(8)
 	# A lower target, no more lobes.
-	var few := Diet.of_files(ProjectFiles.of_scene(path), 10.0)
+	var few := Diet.of_files(ProjectFiles.of_scene(path), 10.0, true, false)
 	var least: ReducedTable = few.lobes.tables.values()[0]
 	assert_int(least.table.lobe_count).is_less(reduced.table.lobe_count)
 
 
 func test_a_target_out_of_reach_keeps_the_set() -> void:
-	var diet := Diet.of_files(ProjectFiles.of_scene(SCENES + "isotropic.tscn"), 46.0)
+	var diet := Diet.of_files(ProjectFiles.of_scene(SCENES + "isotropic.tscn"), 46.0, true, false)
 	assert_dict(diet.lobes.tables).is_empty()
 	assert_str(diet.lobes.kept.values()[0]).contains("out of reach with up to 7 lobes")
 	assert_bool(diet.shares[GGX].is_left_out()).is_false()
@@ -179,7 +179,7 @@ func test_a_target_out_of_reach_keeps_the_set() -> void:
 
 func test_the_scene_is_exported_with_the_reduced_set() -> void:
 	var path := SCENES + "isotropic.tscn"
-	var diet := Diet.of_files(ProjectFiles.of_scene(path), 28.0)
+	var diet := Diet.of_files(ProjectFiles.of_scene(path), 28.0, true, false)
 	var reduced: ReducedTable = diet.lobes.tables.values()[0]
 	var set_file := reduced.get_path()
 	DirAccess.make_dir_recursive_absolute(set_file.get_base_dir())
@@ -206,7 +206,7 @@ func test_materials_in_resources_are_exported_with_the_reduced_set() -> void:
 	for resource: Resource in [_material(0.35, 0.0), box, surfaces]:
 		var file := "user://reduced_%s.tres" % resource.get_class()
 		ResourceSaver.save(resource, file)
-		var diet := Diet.of_files(PackedStringArray([file]), 10.0)
+		var diet := Diet.of_files(PackedStringArray([file]), 10.0, true, false)
 		assert_array(diet.lobes.files.keys()).is_equal([file])
 		_write("user://reduced.res", diet.edit(file))
 		var dependencies := ResourceLoader.get_dependencies("user://reduced.res")

@@ -121,7 +121,7 @@ func test_a_panorama_for_environments_alone_gets_smaller() -> void:
 
 
 func test_without_the_option_nothing_is_resized() -> void:
-	var diet := Diet.of_files(ProjectFiles.of_scene(SCENE), 0.0, false)
+	var diet := Diet.of_files(ProjectFiles.of_scene(SCENE), 0.0, false, false)
 	assert_int(diet.fit.size).is_equal(0)
 	assert_bool(diet.panoramas.shares.is_empty()).is_true()
 	assert_int(diet.edit(SCENE).size()).is_equal(0)

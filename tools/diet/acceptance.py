@@ -28,6 +28,10 @@ from pack_files import ADDON, read_files  # noqa: E402
 import acceptance_page  # noqa: E402
 import instructions  # noqa: E402
 
+# The isotropic scene, by a light that was baked of its panorama.
+BAKED = "baked"
+LIGHT = f"tests/diet/scenes/{BAKED}_light.res"
+LIGHT_SIZE = 64
 # The scenes, as the report names them.
 SCENES = {
     "empty": "nothing of Lobelight",
@@ -36,6 +40,7 @@ SCENES = {
     "everything": "textures, clear coat, emission, capture",
     "by_script": "widths set by a script, the scene's sky",
     "panorama": "one isotropic material, a panorama that nothing else shows",
+    BAKED: "one isotropic material, a baked light",
     # The last one, because its probe stays with the renderer for a while.
     "room": "one isotropic material in a room that a probe lights",
 }
@@ -49,6 +54,8 @@ TARGETS = {"isotropic_target": ("isotropic", 30.0), "anisotropic_target": ("anis
 PANORAMA = "demo/environments/sunset.exr"
 START = '[gd_scene format=3]\n\n[node name="Start" type="Node"]\n'
 LEAST_PSNR = 45.0
+# Of the scene with a baked light, without tables.
+MOST_RUN_TIME = 60 * 1024
 # Of the isotropic scene.
 LEAST_SHARE_GONE = 0.8
 SIDE = 128
@@ -68,6 +75,10 @@ FEATURES = {
     "widths per pixel": ("lobelight_widths",),
 }
 PLAIN = ("isotropic", "anisotropic", "by_script", "panorama")
+# Scenes whose materials something may change, or whose lights take other shaders.
+UNFROZEN = ("empty", "everything", "by_script", "room")
+# What nobody needs where all light is baked.
+LIVE_PARTS = ("pyramid", "live", "skies", "rendering_device", "compatibility", "filters")
 PROJECT = """config_version=5
 
 [application]
@@ -107,6 +118,7 @@ script_export_mode=2
 
 binary_format/architecture="x86_64"
 lobelight/cut_tables={cut}
+lobelight/freeze_materials={freeze}
 lobelight/target_psnr={target}
 """
 
@@ -153,24 +165,33 @@ def make_project(project):
         for ending in ("", ".import"):
             shutil.copy(ROOT / f"{name}{ending}", project / f"{name}{ending}")
     (project / "start.tscn").write_text(START, encoding="utf-8")
-    for name in ("picture.gd", "ask.gd"):
+    text = (scenes / "isotropic.tscn").read_text(encoding="utf-8")
+    resource = f'[ext_resource type="Resource" path="res://{LIGHT}" id="light"]\n\n[sub_resource'
+    text = text.replace("\n[sub_resource", resource, 1)
+    text = text.replace('source = 2\npanorama = ExtResource("forest")', 'light = ExtResource("light")')
+    (project / f"tests/diet/scenes/{BAKED}.tscn").write_text(text, encoding="utf-8")
+    for name in ("picture.gd", "ask.gd", "bake_light.gd"):
         shutil.copy(ROOT / "tools/diet" / name, project)
     (project / "project.godot").write_text(PROJECT.format(side=SIDE), encoding="utf-8")
     # A panorama that no scene has.
     shutil.copy(ROOT / "tests/data/forest.exr", project / UNUSED)
     presets = []
 
-    def add(name, files, exclude, cut="true", target=0.0):
-        values = {"name": name, "filter": files, "exclude": exclude, "cut": cut, "target": target}
+    def add(name, files, exclude, cut="true", target=0.0, freeze="true"):
+        exclude = ",".join(filter(None, [exclude, "bake_light.gd"]))
+        values = {"name": name, "filter": files, "exclude": exclude, "cut": cut, "target": target, "freeze": freeze}
         presets.append(PRESET.format(number=len(presets), **values))
 
     add(WHOLE, ALL_FILES, "", cut="false")
     for name, (scene, target) in ({scene: (scene, 0.0) for scene in SCENES} | TARGETS).items():
-        others = ",".join(f"tests/diet/scenes/{other}.*" for other in SCENES if other != scene)
-        add(name, ALL_FILES, others, target=target)
+        others = ",".join(f"tests/diet/scenes/{other}*" for other in SCENES if other != scene)
+        # A frozen material does not tell what it fetches.
+        add(name, ALL_FILES, others, target=target, freeze="true" if target == 0.0 else "false")
     add(CHOSEN, CHOSEN_FILES.format(scene="isotropic"), "")
     (project / "export_presets.cfg").write_text("\n".join(presets), encoding="utf-8")
     run_engine("--headless", "--path", project, "--import")
+    arguments = ["res://tests/data/forest.exr", f"res://{LIGHT}", LIGHT_SIZE]
+    run_engine("--headless", "--path", project, "--script", "res://bake_light.gd", "--", *arguments)
 
 
 def run_pack(pack, renderer, *arguments, **expected):
@@ -225,31 +246,38 @@ def features_of(material):
     ]
 
 
+def is_same_shader(before, after):
+    """Of a frozen material, the code has no #define and no include any more, but the same uniforms."""
+    return before["code"] == after["code"] or (after["is_frozen"] and before["uniforms"] == after["uniforms"])
+
+
 def row_of(scene, whole, cut, reason):
     """Of a scene: bytes before and after, materials, and how far apart the pictures are. `whole` and `cut` are of export()."""
-    before, after = (sum(sizes.values()) for sizes, _drawn in (whole, cut))
+    bytes_before, bytes_after = (sum(sizes.values()) for sizes, _drawn in (whole, cut))
     materials_before, sizes_before, pictures_before = whole[1][scene]
     materials, sizes, pictures = cut[1][scene]
     return {
         "scene": scene,
         "label": SCENES[scene],
-        "before": before,
-        "after": after,
-        "gone": 1.0 - after / before,
+        "before": bytes_before,
+        "after": bytes_after,
+        "gone": 1.0 - bytes_after / bytes_before,
         "before_by_folder": whole[0],
         "after_by_folder": cut[0],
         "environments": {"before": sizes_before, "after": sizes},
         "psnr": {renderer: round(psnr(pictures_before[renderer], pictures[renderer]), 1) for renderer in RENDERERS},
-        "same_shaders": [m["code"] for m in materials_before] == [m["code"] for m in materials],
+        "frozen": [material["is_frozen"] for material in materials],
+        "same_shaders": all(map(is_same_shader, materials_before, materials)),
         "materials": [
             {
                 "samplers": sum(material["uniforms"].values()),
-                "environment_fetches": material["fetches"]["environment"],
-                "table_fetches": material["fetches"]["table"],
+                # Of frozen materials, those of what they were.
+                "environment_fetches": (material["fetches"] or before["fetches"])["environment"],
+                "table_fetches": (material["fetches"] or before["fetches"])["table"],
                 "features": features_of(material),
                 "code": material["code"],
             }
-            for material in materials
+            for before, material in zip(materials_before, materials)
         ],
         "report": reason,
     }
@@ -330,6 +358,17 @@ def check_targets(checks, rows, targets):
             checks.expect(f"{name}: {renderer}, {decibels} dB from all lobes", decibels >= target)
 
 
+def check_baked(checks, row):
+    """Where all light is baked, nothing that draws light goes along."""
+    sizes = row["after_by_folder"]
+    run_time = sum(size for folder, size in sizes.items() if folder != "tables")
+    checks.expect(f"baked: {run_time} bytes of run time, {MOST_RUN_TIME} at most", run_time <= MOST_RUN_TIME)
+    kept = [entry["path"].split("/")[-2] for entry in row["report"]["files"] if entry["after"] > 0]
+    checks.expect("baked: nothing that draws light", not set(kept) & set(LIVE_PARTS))
+    kept = [entry["path"] for entry in row["report"]["files"] if entry["after"] > 0]
+    checks.expect("baked: no shader that filters", not any(path.endswith(".gdshader") for path in kept))
+
+
 def check(checks, rows, pictures):
     by_scene = {row["scene"]: row for row in rows}
     for row in rows:
@@ -339,6 +378,9 @@ def check(checks, rows, pictures):
             checks.expect(f"{name}: {renderer}, {decibels} dB apart, {LEAST_PSNR} wanted", decibels >= LEAST_PSNR)
             checks.expect(f"{name}: {renderer}, the picture shows something", np.ptp(pictures[name][renderer]) > 0.3)
         checks.expect(f"{name}: the shaders are the same, too", row["same_shaders"])
+        is_frozen = name not in UNFROZEN
+        checks.expect(f"{name}: materials are {'' if is_frozen else 'not '}frozen", all(row["frozen"]) == is_frozen)
+    check_baked(checks, by_scene[BAKED])
     gone = by_scene["isotropic"]["gone"]
     checks.expect(f"isotropic: {gone:.1%} of the bytes are gone, {LEAST_SHARE_GONE:.0%} wanted", gone >= LEAST_SHARE_GONE)
     for name in PLAIN:

@@ -34,11 +34,18 @@ func _materials() -> Array[Dictionary]:
 	var found: Array[Dictionary] = []
 	for node in get_tree().root.find_children("*", "MeshInstance3D", true, false):
 		var material := (node as MeshInstance3D).get_active_material(0)
-		if material == null or not material.has_method(&"get_shader_code"):
+		if material is not ShaderMaterial:
 			continue
-		var code: String = material.call(&"get_shader_code")
-		var fetches: Dictionary = material.call(&"get_fetches")
-		found.append({"code": code, "fetches": fetches, "uniforms": _uniforms(code)})
+		# Put together: what names a material's methods may change it, for all that exports know.
+		var asks := material.has_method("get_shader" + "_code")
+		var frozen := (material as ShaderMaterial).shader
+		if not asks and frozen == null:
+			continue
+		var code: String = material.call("get_shader" + "_code") if asks else frozen.code
+		var fetches: Dictionary = material.call("get_fet" + "ches") if asks else {}
+		found.append(
+			{"code": code, "fetches": fetches, "uniforms": _uniforms(code), "is_frozen": not asks}
+		)
 	return found
 
 

@@ -31,6 +31,7 @@ KNOWS = {
     "detail": (),
     "diffuse": (),
     "fades": (),
+    "frozen": ("light",),
     "lamps": (),
     "engine_light": ("light",),
     "mixing": ("material", "table", "pyramid", "shaders"),

@@ -13,6 +13,7 @@ const ShaderText := preload("shader_text.gd")
 
 const ADDON := "res://addons/lobelight/"
 const RUN_TIME := Features.RUN_TIME
+const TABLES := ADDON + "tables/"
 const TABLE_SET := RUN_TIME + "table/lobe_table_set.gd"
 const SHADERS: PackedStringArray = ["gdshader", "gdshaderinc"]
 const CODE: PackedStringArray = ["gd", "gdshader", "gdshaderinc"]
@@ -36,6 +37,7 @@ class CodeFile:
 var files: Dictionary[String, CodeFile] = {}
 
 var _features: Features
+var _dependencies: Dictionary[String, PackedStringArray] = {}
 var _classes: Dictionary[String, String] = {}
 # Who needs a file. Grows at its end while it is gone through.
 var _needed_by: Dictionary[String, String] = {}
@@ -48,9 +50,15 @@ var _string := RegEx.create_from_string('"[^"\\n]*"')
 var _word := RegEx.create_from_string("\\b[A-Z]\\w+\\b")
 
 
-## What the files of a project need.
-static func of_files(project_files: PackedStringArray, features: Features) -> RefCounted:
+## What the files of a project need. Of files that are exchanged, [param dependencies] has what
+## stands in for them depend on.
+static func of_files(
+	project_files: PackedStringArray,
+	features: Features,
+	dependencies: Dictionary[String, PackedStringArray] = {}
+) -> RefCounted:
 	var code := new()
+	code._dependencies = dependencies
 	code._features = features
 	features.look_at_settings()
 	code._list(RUN_TIME)
@@ -89,7 +97,8 @@ func _look_at(file: String) -> void:
 	if file.get_extension() in TEXTS:
 		_read(file, FileAccess.get_file_as_string(file))
 		return
-	for path in ProjectFiles.get_dependencies(file):
+	var paths := ProjectFiles.get_dependencies(file)
+	for path: String in _dependencies.get(file, paths):
 		_need(path, file)
 
 
@@ -156,7 +165,7 @@ func _read(file: String, text: String) -> void:
 func _need(path: String, by: String) -> bool:
 	if not path.begins_with(ADDON):
 		return false
-	if path.get_extension() == "res":
+	if path.begins_with(TABLES):
 		path = TABLE_SET
 	if not files.has(path):
 		return false

@@ -5,6 +5,7 @@ extends RefCounted
 const CodeFiles := preload("code_files.gd")
 const EnvironmentFit := preload("environment_fit.gd")
 const FileBytes := preload("file_bytes.gd")
+const FrozenMaterials := preload("frozen_materials.gd")
 const LobeReduction := preload("lobe_reduction.gd")
 const PanoramaFit := preload("panorama_fit.gd")
 const Reach := preload("reach.gd")
@@ -41,28 +42,40 @@ var code: CodeFiles
 var fit: EnvironmentFit
 var panoramas := PanoramaFit.new()
 var lobes: LobeReduction
+var frozen: FrozenMaterials
 var material_count := 0
+
+# Whether what was loaded last is not as its file.
+var _is_edited := false
 
 
 ## What the files that are exported need. With a [param target], in dB, materials get the fewest
 ## lobes that reach it, which takes a while. Environments and their panoramas are resized unless
-## [param fits] is false.
-static func of_files(files: PackedStringArray, target := 0.0, fits := true) -> RefCounted:
+## [param fits] is false, and materials that nothing changes are frozen unless [param freezes] is.
+static func of_files(
+	files: PackedStringArray, target := 0.0, fits := true, freezes := true
+) -> RefCounted:
 	var diet := new()
 	var reach := Reach.of_files(files, target)
 	diet.material_count = reach.material_count
 	diet.lobes = reach.lobes
-	diet.code = CodeFiles.of_files(files, reach.features)
 	diet.fit = EnvironmentFit.of(reach.features.environments, reach.sets, reach.own_tables)
 	if fits:
 		diet.panoramas = PanoramaFit.of(files, reach.features, diet.fit)
 	else:
 		diet.fit.size = 0
 		diet.fit.why = "the preset says so"
+	diet.frozen = reach.frozen
+	if not freezes:
+		diet.frozen.why_not = "the preset says so"
+	reach.features.look_at_settings()
+	diet.frozen.freeze(reach.features, diet._load_edited)
+	var is_frozen: bool = diet.frozen.is_frozen()
+	diet.code = CodeFiles.of_files(files, reach.features, diet.frozen.dependencies)
 	for name in DirAccess.get_files_at(Reach.TABLES):
 		if name.get_extension() == "res":
 			var path := Reach.TABLES + name
-			diet.shares[path] = _share_of(path, reach.sets.get(path))
+			diet.shares[path] = _share_of(path, null if is_frozen else reach.sets.get(path))
 	return diet
 
 
@@ -96,18 +109,35 @@ static func _share_of(path: String, reach: SetReach) -> Share:
 	return share
 
 
+## The files of what several others use, by their paths in the export.
+func get_shared_files() -> Dictionary[String, PackedByteArray]:
+	if frozen.is_frozen():
+		return frozen.shaders
+	var shared: Dictionary[String, PackedByteArray] = {}
+	for reduced: LobeReduction.ReducedTable in lobes.tables.values():
+		shared[reduced.get_path()] = reduced.get_bytes()
+	return shared
+
+
 ## What is exported in place of a scene or a resource; empty if it goes along as it is.
 func edit(path: String) -> PackedByteArray:
+	if frozen.files.has(path):
+		return frozen.files[path]
 	if not lobes.files.has(path) and not fit.has_environment(path):
 		return PackedByteArray()
+	var resource := _load_edited(path)
+	if not _is_edited:
+		return PackedByteArray()
+	return FileBytes.of(resource, "scn" if resource is PackedScene else "res")
+
+
+func _load_edited(path: String) -> Resource:
 	var resource := ResourceLoader.load(path, "", ResourceLoader.CACHE_MODE_IGNORE)
-	var is_changed := lobes.edit(resource)
+	_is_edited = lobes.edit(resource)
 	var packed := resource as PackedScene
 	if packed != null and fit.has_environment(path):
-		is_changed = fit.edit(packed) or is_changed
-	if not is_changed:
-		return PackedByteArray()
-	return FileBytes.of(resource, "scn" if packed != null else "res")
+		_is_edited = fit.edit(packed) or _is_edited
+	return resource
 
 
 ## One line for each set and for each file that is left out or empty, and the sum.
@@ -122,6 +152,7 @@ func describe() -> PackedStringArray:
 			lines.append(
 				"%s: %d bytes, %d: %s" % [path.get_file(), file.before, file.after, file.why]
 			)
+	lines.append(frozen.describe())
 	lines.append(fit.describe())
 	lines.append_array(panoramas.describe())
 	var report := to_dictionary()
@@ -145,8 +176,11 @@ func to_dictionary() -> Dictionary:
 		before += share.before
 		after += share.after
 		tables.append(_entry(path, share.before, share.after, share.why))
+	var run_time := code.get_size_after() + frozen.get_shader_size()
+	after += frozen.get_shader_size()
 	for reduced: LobeReduction.ReducedTable in lobes.tables.values():
-		var size := reduced.get_bytes().size()
+		# Frozen materials have their tables with them.
+		var size := 0 if frozen.is_frozen() else reduced.get_bytes().size()
 		after += size
 		tables.append(_entry(reduced.get_path(), 0, size, reduced.get_reason()))
 	var files: Array[Dictionary] = []
@@ -160,7 +194,9 @@ func to_dictionary() -> Dictionary:
 		"materials": material_count,
 		"before": before,
 		"after": after,
-		"run_time": code.get_size_after(),
+		"run_time": run_time,
+		"frozen": frozen.is_frozen(),
+		"frozen_why_not": frozen.why_not,
 		"environment_size": fit.size,
 		"environment_size_why": fit.why,
 		"panoramas": pictures,

@@ -6,7 +6,9 @@ extends EditorExportPlugin
 ## Of the ready tables and of the run time it exports what the project can reach, prints what it
 ## did, and keeps a report in the project's data folder. The preset's option "lobelight/cut_tables"
 ## turns that off. Environments of automatic size get the size that the sharpest lobe needs, and
-## their panoramas as many texels as that shows, unless "lobelight/fit_environments" is off. With a
+## their panoramas as many texels as that shows, unless "lobelight/fit_environments" is off.
+## Materials that nothing changes go along as shaders and numbers, without what makes these of their
+## properties, unless "lobelight/freeze_materials" is off. With a
 ## "lobelight/target_psnr", materials get the fewest lobes that reach it.
 
 const Diet := preload("diet.gd")
@@ -20,6 +22,7 @@ const EDITOR_ONLY: PackedStringArray = ["editor/", "bin/", "doc_classes/", "icon
 const TABLE_CHOICE := "res://addons/lobelight/runtime/material/table_choice.gd"
 const CUT_TABLES := "lobelight/cut_tables"
 const FIT_ENVIRONMENTS := "lobelight/fit_environments"
+const FREEZE_MATERIALS := "lobelight/freeze_materials"
 const TARGET_PSNR := "lobelight/target_psnr"
 const REPORT := "res://.godot/lobelight_export.json"
 
@@ -37,7 +40,7 @@ func _get_name() -> String:
 
 func _get_export_options(_platform: EditorExportPlatform) -> Array[Dictionary]:
 	var options: Array[Dictionary] = []
-	for name: String in [CUT_TABLES, FIT_ENVIRONMENTS]:
+	for name: String in [CUT_TABLES, FIT_ENVIRONMENTS, FREEZE_MATERIALS]:
 		options.append({"option": {"name": name, "type": TYPE_BOOL}, "default_value": true})
 	var target := {
 		"name": TARGET_PSNR,
@@ -58,9 +61,15 @@ func _export_begin(
 	if get_option(CUT_TABLES) != false:
 		var target: float = get_option(TARGET_PSNR)
 		var files := ProjectFiles.of_preset(get_export_preset())
-		_diet = Diet.of_files(files, target, get_option(FIT_ENVIRONMENTS) != false)
-		for reduced: Diet.LobeReduction.ReducedTable in _diet.lobes.tables.values():
-			add_file(reduced.get_path(), reduced.get_bytes(), false)
+		_diet = Diet.of_files(
+			files,
+			target,
+			get_option(FIT_ENVIRONMENTS) != false,
+			get_option(FREEZE_MATERIALS) != false
+		)
+		var shared := _diet.get_shared_files()
+		for path in shared:
+			add_file(path, shared[path], false)
 
 
 func _export_file(path: String, type: String, _features: PackedStringArray) -> void:

@@ -25,6 +25,7 @@ const SHEEN := "sheen"
 const GLTF := "import of glTF files"
 const FADES := "fades and refraction"
 const LAMPS := "rims, back light and light below the surface"
+const FROZEN := "materials that nothing changes"
 const WARNINGS := "warnings, which the editor shows"
 
 ## Folders of the run time that nothing but the feature needs. Each of them stays or goes whole.
@@ -36,6 +37,7 @@ const FOLDERS: Dictionary[String, String] = {
 	"detail": DETAIL,
 	"diffuse": DIFFUSE,
 	"fades": FADES,
+	"frozen": FROZEN,
 	"engine_light": OnDemand.ENGINE_LIGHT,
 	"filters": OnDemand.FILTERS,
 	"mixing": OnDemand.MIXING,
@@ -231,6 +233,7 @@ func look_at_node(file: String, properties: Dictionary, type: StringName) -> voi
 	if script == null:
 		return
 	if script == LobeProbe:
+		add(OnDemand.PLACES, file)
 		# Unless its light was baked.
 		if properties.get("light") == null:
 			add(OnDemand.SKIES, file)

@@ -4,8 +4,8 @@ extends RefCounted
 
 
 ## A resource as a file's bytes; empty, and an error, if it cannot be saved. The ending says in
-## which format.
-static func of(resource: Resource, ending: String) -> PackedByteArray:
+## which format; [param named] is given the paths of the other files that it needs.
+static func of(resource: Resource, ending: String, named: Array[String] = []) -> PackedByteArray:
 	var name := "lobelight_%d.%s" % [OS.get_process_id(), ending]
 	var file := OS.get_temp_dir().path_join(name)
 	var error := ResourceSaver.save(resource, file, ResourceSaver.FLAG_COMPRESS)
@@ -13,6 +13,9 @@ static func of(resource: Resource, ending: String) -> PackedByteArray:
 		push_error("%s: cannot be written (%s)." % [file, error_string(error)])
 		return PackedByteArray()
 	var bytes := FileAccess.get_file_as_bytes(file)
+	for dependency in ResourceLoader.get_dependencies(file):
+		# uid::type::path, or a path alone.
+		named.append(dependency.get_slice("::", 2) if "::" in dependency else dependency)
 	DirAccess.remove_absolute(file)
 	return bytes
 

@@ -80,7 +80,7 @@ func reduce(file: String, material: LobeMaterial3D) -> bool:
 	var problem := "" if _is_fixed(material) else why_none
 	if problem.is_empty() and tables_of == null:
 		problem = "a table or a texture of its own, a clear coat or a script says what is drawn"
-	if problem.is_empty() and not _can_edit(home):
+	if problem.is_empty() and not can_edit(home):
 		problem = "imported files are exported as they are"
 	if problem:
 		kept[home] = problem
@@ -165,7 +165,8 @@ func _give(material: LobeMaterial3D) -> bool:
 	return true
 
 
-static func _can_edit(file: String) -> bool:
+## Whether a file's materials can be exchanged.
+static func can_edit(file: String) -> bool:
 	var endings := ProjectFiles.RESOURCES + EDITABLE_SCENES
 	return file.get_extension() in endings and not FileAccess.file_exists(file + ".import")
 

@@ -9,6 +9,7 @@ extends RefCounted
 ## not known of them.
 
 const Features := preload("features.gd")
+const FrozenMaterials := preload("frozen_materials.gd")
 const LobeReduction := preload("lobe_reduction.gd")
 const ProjectFiles := preload("project_files.gd")
 const SetReach := preload("set_reach.gd")
@@ -25,6 +26,8 @@ var sets: Dictionary[String, SetReach] = {}
 ## How many materials of the addon were found.
 var material_count := 0
 var features := Features.new()
+## Whether materials can be frozen.
+var frozen := FrozenMaterials.new()
 ## Tables of materials that are of no set: [file, table].
 var own_tables: Array[Array] = []
 ## Materials that draw fewer lobes than their sets have.
@@ -92,6 +95,7 @@ func _read(file: String) -> void:
 func _look_at_scene(file: String, scene: PackedScene) -> void:
 	if scene == null:
 		_unknown.append("%s cannot be read" % file)
+		frozen.add_all(file)
 		return
 	var state := scene.get_state()
 	for node in state.get_node_count():
@@ -131,7 +135,11 @@ func _look_at(file: String, value: Variant) -> void:
 	elif resource is LobeMaterial3D:
 		_materials.append([file, resource])
 		features.look_at_material(file, resource)
+		frozen.look_at_material(file, resource)
 		_look_at(file, (resource as LobeMaterial3D).next_pass)
+		_look_at(file, (resource as LobeMaterial3D).light)
+	elif resource is LobeLight:
+		frozen.look_at_light(file, resource)
 	elif resource is LobeTableSet:
 		# A script may give it to a material.
 		_named_sets[resource.resource_path] = file
@@ -150,6 +158,7 @@ func _look_at_animation(file: String, animation: Animation) -> void:
 	for track in animation.get_track_count():
 		var path := String(animation.track_get_path(track))
 		features.read_line(file, path)
+		frozen.read_line(file, path)
 		if _mention.search(path) != null:
 			_unknown.append("%s animates %s" % [file, path])
 
@@ -160,8 +169,10 @@ func _read_script(file: String, text: String) -> void:
 		if code.begins_with("#") or code.begins_with("//"):
 			continue
 		features.read_line(file, code)
+		frozen.read_line(file, code)
 		if _dynamic.search(code) != null or _other_widths.search(code) != null:
 			features.add_all(file)
+			frozen.add_all(file)
 		var assigned := _assignment.search(code)
 		if "sheen_" in code:
 			_sheen_script = file

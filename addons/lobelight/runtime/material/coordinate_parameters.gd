@@ -3,6 +3,7 @@ extends Object
 ## Hands the rendering server where a [LobeMaterial3D]'s textures lie and where its vertices go: the
 ## uniforms that go with coordinate_defines.gd.
 
+const GivenParameters := preload("given_parameters.gd")
 const Numbers := preload("surface_numbers.gd")
 
 
@@ -56,4 +57,4 @@ static func _apply_vertices(surface: LobeBaseMaterial3D) -> void:
 
 
 static func _give(surface: LobeBaseMaterial3D, name: StringName, value: Variant) -> void:
-	RenderingServer.material_set_param(surface.get_rid(), name, value)
+	GivenParameters.give(surface.get_rid(), name, value)

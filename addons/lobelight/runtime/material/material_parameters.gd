@@ -6,6 +6,7 @@ extends Object
 ## all.
 
 const CoordinateParameters := preload("coordinate_parameters.gd")
+const GivenParameters := preload("given_parameters.gd")
 const Numbers := preload("surface_numbers.gd")
 const TableChoice := preload("table_choice.gd")
 
@@ -196,4 +197,4 @@ static func _give_texture(material: RID, name: StringName, texture: Texture2D) -
 
 
 static func _give(material: RID, name: StringName, value: Variant) -> void:
-	RenderingServer.material_set_param(material, name, value)
+	GivenParameters.give(material, name, value)
