@@ -54,6 +54,7 @@ func test_a_frozen_material_looks_the_same(
 		material.set(name, _make(name, properties[name]))
 	var sphere: MeshInstance3D = Kit.make_sphere(material, 32)
 	_view.add_child(sphere)
+	await _view.capture()
 	var expected: Image = await _view.capture()
 	var frozen := FrozenMaterials.new()
 	sphere.material_override = frozen.make(material)
