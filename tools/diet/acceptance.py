@@ -451,7 +451,7 @@ def main():
         check_chosen(checks, work / "project", work / CHOSEN, rows)
         check_panorama(checks, work / WHOLE / "game.pck", work / "panorama/game.pck", rows)
         check_probes(checks, work)
-        check_asking(checks, work / "isotropic/game.pck")
+        check_asking(checks, work / "isotropic_target/game.pck")
         if options.instructions:
             print("instructions", file=sys.stderr, flush=True)
             instructions.add(rows + targets, work / "instructions")
