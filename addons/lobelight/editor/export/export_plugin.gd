@@ -52,6 +52,25 @@ func _get_export_options(_platform: EditorExportPlatform) -> Array[Dictionary]:
 	return options
 
 
+# The engine's shader baker, whose name comes later, asks materials that have just been loaded for
+# their shaders; those of this addon are made a little later.
+func _begin_customize_resources(
+	_platform: EditorExportPlatform, features: PackedStringArray
+) -> bool:
+	return "shader_baker" in features
+
+
+func _customize_resource(resource: Resource, _path: String) -> Resource:
+	if resource is LobeMaterial3D:
+		(resource as LobeMaterial3D).update_now()
+	return null
+
+
+# Shaders are made for the renderer and the engine that export.
+func _get_customization_configuration_hash() -> int:
+	return hash([Engine.get_version_info(), RenderingServer.get_current_rendering_method()])
+
+
 func _export_begin(
 	_features: PackedStringArray, _is_debug: bool, _path: String, _flags: int
 ) -> void:

@@ -23,6 +23,21 @@ const _BACKGROUND: Array[StringName] = [
 	&"fog_aerial_perspective",
 	&"fog_sky_affect",
 ]
+# What counts with fog only.
+const _FOG: Array[StringName] = [
+	&"fog_mode",
+	&"fog_light_color",
+	&"fog_light_energy",
+	&"fog_sun_scatter",
+	&"fog_density",
+	&"fog_aerial_perspective",
+	&"fog_sky_affect",
+	&"fog_height",
+	&"fog_height_density",
+	&"fog_depth_curve",
+	&"fog_depth_begin",
+	&"fog_depth_end",
+]
 # What else there is to objects in it.
 const _LIGHTING: Array[StringName] = [
 	&"ambient_light_source",
@@ -48,6 +63,9 @@ var _seen: Array = []
 var _count := 0
 var _differs := false
 var _texture_changed := false
+# The same in short, as it was asked last, and whether a texture of the sky changes by itself.
+var _state: Array = []
+var _is_live := false
 # The sky material whose properties these are, and its shader.
 var _material: Material
 var _shader: Shader
@@ -122,7 +140,10 @@ func find_sky_rotation() -> Basis:
 
 ## Brings [member copy] up to date; whether anything that shows has changed since the last call.
 func update() -> bool:
+	if not _has_moved():
+		return false
 	_count = 0
+	_is_live = false
 	_differs = _texture_changed
 	_texture_changed = false
 	var environment := find_environment()
@@ -140,6 +161,54 @@ func update() -> bool:
 	_look_at(RenderingServer.get_default_clear_color())
 	_seen.resize(_count)
 	return _differs
+
+
+# Whether a look in detail is needed. It is asked in each frame, and calls as little as it can.
+func _has_moved() -> bool:
+	var environment := find_environment()
+	var material: Material = null
+	var state := [environment, RenderingServer.get_default_clear_color()]
+	if environment != null:
+		var sky := environment.sky
+		material = sky.sky_material if sky != null else null
+		(
+			state
+			. append_array(
+				[
+					sky,
+					material,
+					(material as ShaderMaterial).shader if material is ShaderMaterial else null,
+					environment.background_mode,
+					environment.background_color,
+					environment.background_energy_multiplier,
+					environment.background_intensity,
+					environment.sky_rotation,
+					environment.ambient_light_source,
+					environment.reflected_light_source,
+					environment.fog_enabled,
+				]
+			)
+		)
+		if environment.fog_enabled:
+			for name in _FOG:
+				state.append(environment.get(name))
+		if _with_scene:
+			(
+				state
+				. append_array(
+					[
+						environment.ambient_light_color,
+						environment.ambient_light_energy,
+						environment.ambient_light_sky_contribution,
+					]
+				)
+			)
+	if material != null and material == _material:
+		for name in _names:
+			state.append(material.get(name))
+	var has_moved := _texture_changed or _is_live or state != _state
+	_state = state
+	return has_moved
 
 
 func _copy_background(environment: Environment) -> void:
@@ -199,7 +268,8 @@ func _look_at_sky(sky: Sky) -> void:
 			var texture: Texture2D = value
 			if not texture.changed.is_connected(_on_texture_changed):
 				texture.changed.connect(_on_texture_changed)
-		_differs = _differs or LiveTextures.is_live(value)
+		_is_live = _is_live or LiveTextures.is_live(value)
+	_differs = _differs or _is_live
 
 
 # Whether a value is another than at the last look.
