@@ -993,7 +993,7 @@ var _rid := get_rid()
 # Whether everything will be handed on anew.
 var _awaits_update := false
 # Whether light is measured in physical units, as of the last update.
-var _is_physical := false
+var _is_physical := has_physical_units()
 # Materials may be made, changed and looked at on several threads.
 var _mutex := Mutex.new()
 
