@@ -264,10 +264,7 @@ func after_test() -> void:
 
 func test_properties_do_what_godots_do() -> void:
 	var plain: Dictionary[String, Image] = {}
-	# Mobile has all of them; Forward+ makes the same of the shader's text.
-	var is_forward_plus := RenderingServer.get_current_rendering_method() == "forward_plus"
-	for index in range(0, ROWS.size(), 4 if is_forward_plus else 1):
-		var row: Array = ROWS[index]
+	for row: Array in ROWS:
 		var property: String = row[0]
 		var settings: Dictionary = row[3]
 		if LinearViewport.is_compatibility() and settings.has("ao_light_affect"):

@@ -7,6 +7,8 @@ source "$ROOT/tools/lib/gdunit.sh"
 source "$ROOT/tools/lib/demo_tables.sh"
 # shellcheck source=tools/testing/runners.sh
 source "$ROOT/tools/testing/runners.sh"
+# shellcheck source=tools/testing/rendered.sh
+source "$ROOT/tools/testing/rendered.sh"
 # shellcheck source=tools/testing/lanes.sh
 source "$ROOT/tools/testing/lanes.sh"
 # shellcheck source=tools/testing/sanitizers.sh

@@ -61,7 +61,7 @@ jobs_of() {
   case $1 in
     cpp) printf '%s\n' cpp cpp_sanitized fuzz ;;
     stability) printf '%s\n' stability stability_changes ;;
-    commands) printf '%s\n' commands setup report report_smoke ;;
+    commands) printf '%s\n' commands setup report report_smoke bench_runtime ;;
     export) printf '%s\n' export_diet export_pictures export_package export_android ;;
     render)
       for renderer in ${LOBELIGHT_RENDERERS:-mobile gl_compatibility forward_plus}; do
@@ -74,7 +74,7 @@ jobs_of() {
 
 # The runners that take longest begin first, so that none of them is left over at the end.
 LONGEST_FIRST=(render_mobile render_forward_plus render_gl_compatibility export_pictures accuracy export_package
-  report_smoke export_android renderers commands fuzz cpp)
+  report_smoke export_android bench_runtime renderers commands fuzz cpp)
 
 # order_jobs JOB…: prints them, one a line.
 order_jobs() {
@@ -103,6 +103,7 @@ prepare_tests() {
   [[ ! $wanted =~ \ (stability|stability_changes)\  ]] || need_python stability
   [[ $wanted != *" crosscheck "* ]] || need_python crosscheck
   [[ ! $wanted =~ \ (report|report_smoke|commands)\  ]] || need_python report
+  [[ $wanted != *" bench_runtime "* ]] || need_python bench
   # The last one is what PYTHON stays.
   need_python accuracy
 }
@@ -119,13 +120,25 @@ run_stability_changes() {
   judge stability-changes
 }
 
-# run_suites NAME FOLDER ENGINE…: the suites of a folder; ENGINE is how the engine is called. user:// is this run's own.
+# run_suites NAME FOLDER ENGINE…: the suites of a folder; ENGINE is how the engine is called.
 run_suites() {
   local name=$1 folder=$2
   shift 2
+  run_gdunit "$name" -a "res://$folder" -- "$@"
+}
+
+# run_gdunit NAME ARGUMENT… -- ENGINE…: gdUnit4's tool with these arguments. user:// is this run's own.
+run_gdunit() {
+  local name=$1 arguments=()
+  shift
+  while [[ $1 != -- ]]; do
+    arguments+=("$1")
+    shift
+  done
+  shift
   rm -rf "${RESULTS:?}/$name-report" "${RESULTS:?}/$name-user"
   mkdir "$RESULTS/$name-user"
-  XDG_DATA_HOME=$RESULTS/$name-user run_logged "$name" "$@" -s "$GDUNIT_TOOL" --ignoreHeadlessMode -a "res://$folder" -c \
+  XDG_DATA_HOME=$RESULTS/$name-user run_logged "$name" "$@" -s "$GDUNIT_TOOL" --ignoreHeadlessMode "${arguments[@]}" -c \
     -rd "res://build/test/$name-report"
   local reports=("$RESULTS/$name-report"/report_*/results.xml)
   judge "$name" --engine --junit "${reports[0]}"
@@ -179,7 +192,9 @@ run_render_gl_compatibility() { run_render gl_compatibility; }
 run_render_forward_plus() { run_render forward_plus; }
 
 run_render() {
-  run_suites "render-$1" tests/render in_time godot_rendered "$1"
+  local rendered=()
+  list_rendered "$1"
+  run_gdunit "render-$1" "${rendered[@]}" -- in_time godot_rendered "$1"
 }
 
 # What the commands do with wrong arguments and files.
@@ -204,6 +219,12 @@ run_report() {
 run_report_smoke() {
   run_logged report-smoke in_time "$PYTHON" "$ROOT/tests/commands/report_smoke_test.py"
   judge report-smoke
+}
+
+# ./dev bench runtime --out from end to end, small.
+run_bench_runtime() {
+  run_logged bench-runtime in_time "$PYTHON" "$ROOT/tests/commands/bench_runtime_test.py"
+  judge bench-runtime
 }
 
 # What exports leave out, as the editor's scripts find it.

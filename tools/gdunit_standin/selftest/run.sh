@@ -79,6 +79,12 @@ verdict "stops at the first failure without -c" 100 "end, 0 passed, 1 failed"
 tool --ignoreHeadlessMode -a res://tests/good_test.gd -i good_test -c
 verdict "an ignored suite leaves no test" 100 "end, 0 passed, 0 failed"
 
+tool --ignoreHeadlessMode -a res://tests/good_test.gd -i res://tests/good_test.gd:test_doubles -c
+verdict "an ignored test leaves the others" 0 "end, 5 passed, 0 failed, 1 skipped"
+
+tool --ignoreHeadlessMode -a res://tests/good_test.gd -i res://tests/good_test.gd:test_gone -c
+verdict "an ignored test has to be there" 100 "test_gone is to be left out, but there is no such test"
+
 tool -a res://tests/good_test.gd -c
 verdict "headless needs the flag" 103 "headless mode needs --ignoreHeadlessMode"
 

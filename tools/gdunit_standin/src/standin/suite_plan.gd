@@ -41,6 +41,19 @@ static func read(suite_path: String) -> RefCounted:
 	return plan
 
 
+## Leaves out the tests that [param ignored] names, as res://suite.gd:test. A name that is no test's
+## is a defect of the suite.
+func leave_out(ignored: PackedStringArray) -> void:
+	for name in ignored:
+		if not name.begins_with(path + ":"):
+			continue
+		var method := name.trim_prefix(path + ":")
+		var count := cases.size()
+		cases.assign(cases.filter(func(case: Case) -> bool: return case.method != method))
+		if cases.size() == count:
+			defect = "%s is to be left out, but there is no such test" % method
+
+
 static func _inherits_suite(script: Script) -> bool:
 	var base := script.get_base_script()
 	while base != null:

@@ -22,7 +22,8 @@ func _init(tree: SceneTree, watch: ErrorWatch) -> void:
 	_watch = watch
 
 
-## Runs every suite below [param paths], except those that [param ignored] names.
+## Runs every suite below [param paths], except those that [param ignored] names, and of those only
+## the tests that it does not name, as res://suite.gd:test.
 func run(paths: PackedStringArray, ignored: PackedStringArray) -> void:
 	for path in paths:
 		var files := _scripts_below(path)
@@ -30,7 +31,7 @@ func run(paths: PackedStringArray, ignored: PackedStringArray) -> void:
 			add_error(path, "there is no script at this path")
 		for file in files:
 			if not _is_ignored(file, ignored) and not _must_stop():
-				await _run_file(file)
+				await _run_file(file, ignored)
 
 
 ## Number of records for which [param condition] (Record to bool) holds.
@@ -82,12 +83,14 @@ static func _is_ignored(file: String, ignored: PackedStringArray) -> bool:
 	return false
 
 
-func _run_file(file: String) -> void:
+func _run_file(file: String, ignored: PackedStringArray) -> void:
 	var plan: SuitePlan = SuitePlan.read(file)
 	var load_errors := _watch.collect_errors()
 	if plan == null and load_errors.is_empty():
 		return
 	print(file)
+	if plan != null and not plan.defect:
+		plan.leave_out(ignored)
 	if plan != null and plan.defect:
 		add_error(file, "\n".join(PackedStringArray([plan.defect]) + load_errors))
 	elif not load_errors.is_empty():
