@@ -2,19 +2,13 @@ extends SceneTree
 ## `./dev bench rooms`: what the scripts of the run time take in each frame of a scene of many
 ## rooms, while nothing moves, while a probe moves, and while one is captured.
 ## `--probes N`, `--meshes N`, `--frames N`, `--json FILE`.
-##
-## What is called in a frame hangs on the engine's signals: the time is that between a call of ours
-## that comes before all others and one that comes after them.
 
 const _SPACING := 8.0
 const _MATERIALS := 20
 # Until all has been captured and what drew it has been given back.
 const _SETTLING := 600
-const _OURS := "res://addons/lobelight/"
 
 var _arguments := CommandLine.new("bench rooms", ["probes", "meshes", "frames", "json"])
-var _begin := 0
-var _spent := 0
 
 
 func _initialize() -> void:
@@ -40,9 +34,7 @@ func _run() -> void:
 
 
 func _measure(count: int, meshes: int, frames: int) -> Array[Dictionary]:
-	var signals := _list_signals()
-	for one: Signal in signals:
-		one.connect(_on_begin)
+	var clock := ScriptClock.new(self)
 	var before := _texture_bytes()
 	var world := Node3D.new()
 	root.add_child(world)
@@ -64,15 +56,10 @@ func _measure(count: int, meshes: int, frames: int) -> Array[Dictionary]:
 				probes[0].force_update_transform()
 			elif state == "a probe is captured":
 				probes[0].interior = frame % 2 == 0
-			# After what has just been connected.
-			for one: Signal in signals:
-				if one.is_connected(_on_end):
-					one.disconnect(_on_end)
-				one.connect(_on_end)
-			_spent = 0
-			most_calls = maxi(most_calls, _count_calls(signals))
+			clock.begin_frame()
+			most_calls = maxi(most_calls, clock.count_calls())
 			await process_frame
-			times.append(_spent)
+			times.append(clock.spent)
 		var result := {
 			"renderer": RenderingServer.get_current_rendering_method(),
 			"probes": count,
@@ -90,40 +77,8 @@ func _measure(count: int, meshes: int, frames: int) -> Array[Dictionary]:
 			)
 		)
 	world.free()
+	clock.stop()
 	return results
-
-
-func _list_signals() -> Array[Signal]:
-	return [
-		process_frame,
-		physics_frame,
-		RenderingServer.frame_pre_draw,
-		RenderingServer.frame_post_draw,
-	]
-
-
-func _on_begin() -> void:
-	_begin = Time.get_ticks_usec()
-
-
-func _on_end() -> void:
-	_spent += Time.get_ticks_usec() - _begin
-
-
-# The run time's functions that a frame calls.
-func _count_calls(signals: Array[Signal]) -> int:
-	var calls := 0
-	for one in signals:
-		for connection: Dictionary in one.get_connections():
-			var called: Callable = connection["callable"]
-			var script: Script = called.get_object() as Script
-			if script == null and called.get_object() != null:
-				script = called.get_object().get_script()
-			if script != null and script.resource_path.begins_with(_OURS):
-				calls += 1
-	for node in root.find_children("*", "Node3D", true, false):
-		calls += int(node.is_processing()) + int(node.is_physics_processing())
-	return calls
 
 
 func _add_meshes(world: Node3D, count: int) -> void:

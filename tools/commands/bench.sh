@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# measures the fit's speed, memory and error beside NumPy's and SciPy's ([--quick] [--only PART] [--json FILE] [--out DIR]); runtime: an environment's updates; rooms: what probes cost a frame; flicker: bumps under a small sun
+# measures the fit's speed, memory and error beside NumPy's and SciPy's ([--quick] [--only PART] [--json FILE] [--out DIR]); runtime: first light, updates and properties in a running game; rooms: what probes cost a frame; flicker: bumps under a small sun
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 if [[ ${1:-} == runtime || ${1:-} == rooms || ${1:-} == flicker ]]; then
