@@ -77,7 +77,8 @@ func _measure_mode(mode: String, panorama: Texture2D, rounds: int) -> Dictionary
 		_is_lit = false
 		_view.add_child(environment)
 		var times := PackedFloat32Array()
-		# And the frame in which it is told.
+		# At least the frame that the node has come in, whose time began before it came.
+		times.append(await _time_frame())
 		while not _is_lit and times.size() < _LONGEST:
 			times.append(await _time_frame())
 		if not _is_lit:
