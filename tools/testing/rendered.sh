@@ -8,7 +8,24 @@
 # lightmaps, voxels, multisampling. They come last.
 LAST_SUITES=(vocabulary_shading_test engine_diffuse_test global_illumination_test)
 
-# What is left to Mobile: SUITE, or SUITE:TEST. Everything else, and every new suite, runs in Forward+ too.
+# What is left to Compatibility: SUITE, or SUITE:TEST. Shaders of the rivals, drawn on squares, whose text has no branch for a
+# renderer. Mobile draws each of them once (comparators_test), and ./dev test accuracy holds two against all renderers.
+MOBILE_LEAVES_OUT=(
+  comparators_test:test_fis_weights_and_levels
+  comparators_test:test_fis_on_a_wider_pyramid_blurs_as_on_means_of_two_by_two
+  comparators_test:test_fis_converges_to_the_reference comparators_test:test_white_furnace_of_fis
+  comparators_test:test_white_furnace_of_toral comparators_test:test_toral_texture_holds_the_lobes
+  comparators_test:test_toral_takes_the_lobes_of_the_nearest_view comparators_test:test_toral_levels
+  comparators_test:test_dual_paraboloid_map_has_levels_of_two_by_two_means
+  comparators_lobes_test
+  comparators_prefiltered_test:test_white_furnace
+  comparators_prefiltered_test:test_split_sum_is_exact_along_the_normal
+  comparators_prefiltered_test:test_bent_normal_of_the_split_sum
+  comparators_prefiltered_test:test_major_axis_lies_between_the_extrema_of_the_ellipse
+  comparators_prefiltered_test:test_major_axis_follows_a_long_highlight
+)
+
+# What is left to Mobile and Compatibility. Everything else, and every new suite, runs in Forward+ too.
 FORWARD_PLUS_LEAVES_OUT=(
   # Shaders of the rivals and of the references, drawn on squares: no light of the engine is in them, their text has no
   # branch for a renderer. comparison_test draws some of them in Forward+.
@@ -75,19 +92,21 @@ FORWARD_PLUS_LEAVES_OUT=(
 
 # list_rendered RENDERER: sets $rendered to the arguments of gdUnit4's tool that name the suites.
 list_rendered() {
-  local name entry whole=() suites=()
+  local name entry left_out=() whole=() suites=()
   rendered=()
-  if [[ $1 == forward_plus ]]; then
-    for entry in "${FORWARD_PLUS_LEAVES_OUT[@]}"; do
-      name=${entry%%:*}
-      [[ -f $ROOT/tests/render/$name.gd ]] || die "test: Forward+ leaves out $entry, but there is no tests/render/$name.gd"
-      if [[ $entry == *:* ]]; then
-        rendered+=(-i "res://tests/render/$name.gd:${entry#*:}")
-      else
-        whole+=("$name")
-      fi
-    done
-  fi
+  case $1 in
+    mobile) left_out=("${MOBILE_LEAVES_OUT[@]}") ;;
+    forward_plus) left_out=("${FORWARD_PLUS_LEAVES_OUT[@]}") ;;
+  esac
+  for entry in "${left_out[@]}"; do
+    name=${entry%%:*}
+    [[ -f $ROOT/tests/render/$name.gd ]] || die "test: $1 leaves out $entry, but there is no tests/render/$name.gd"
+    if [[ $entry == *:* ]]; then
+      rendered+=(-i "res://tests/render/$name.gd:${entry#*:}")
+    else
+      whole+=("$name")
+    fi
+  done
   for name in "$ROOT"/tests/render/*_test.gd; do
     name=$(basename "$name" .gd)
     is_one_of "$name" "${LAST_SUITES[@]}" "${whole[@]}" || suites+=("$name")
