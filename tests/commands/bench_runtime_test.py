@@ -31,6 +31,7 @@ class BenchRuntimeTest(unittest.TestCase):
                 self.assertGreater(row["frame_ms"], 0.0)
                 self.assertGreater(row["longest_frame_ratio"], 0.0)
                 self.assertGreaterEqual(row["until_light"], 1)
+            self.assertGreater(lights["time_sliced"]["turn_longest_frame_ratio"], 0.0)
             bytes_of = {row["thing"]: row["texture_mib"] for row in results if row["what"] == "memory"}
             # Six faces of 128 texels and their levels, half floats, take 1 MiB.
             self.assertGreater(bytes_of["live light"], 0.9)
@@ -44,7 +45,7 @@ class BenchRuntimeTest(unittest.TestCase):
     def test_shares_of_what_is_to_be_kept(self):
         rows = [
             {"what": "first-light", "renderer": "mobile", "mode": "once", "first_light_frames": 8.0},
-            {"what": "first-light", "renderer": "mobile", "mode": "time_sliced", "longest_frame_ratio": 1.0},
+            {"what": "first-light", "renderer": "mobile", "mode": "time_sliced", "turn_longest_frame_ratio": 1.0},
             {"what": "idle", "renderer": "mobile", "source": "sky", "script_usec": 2.5},
             {"what": "properties", "renderer": "mobile", "property": "emission", "ratio": 6.0},
             {"what": "memory", "renderer": "mobile", "thing": "baked light", "texture_mib": 1.5},

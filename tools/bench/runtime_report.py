@@ -39,7 +39,7 @@ def bounds(results):
         if what == "first-light" and row["mode"] == "once":
             yield f"first light, frames / {FIRST_LIGHT:g}", renderer, row["first_light_frames"] / FIRST_LIGHT
         elif what == "first-light":
-            yield f"longest frame in slices / {LONGEST:g}", renderer, row["longest_frame_ratio"] / LONGEST
+            yield f"longest frame in slices / {LONGEST:g}", renderer, row["turn_longest_frame_ratio"] / LONGEST
         elif what == "idle":
             yield f"idle, {row['source']}, µs / {IDLE:g}", renderer, row["script_usec"] / IDLE
         elif what == "properties":
@@ -91,9 +91,9 @@ medians over its rounds; times are those of the machine that measured, here soft
     text += section(
         "First light",
         "How much longer the frames are, until a panorama's light is there, than those after, in frames of 720p that eight "
-        f"lobes light (at most {FIRST_LIGHT:g}); and the longest of them (at most {LONGEST:g} in TIME_SLICED). The first time "
-        "in a process also compiles shaders.",
-        ["Renderer", "Mode", "Panorama", "An ordinary frame, ms", "First light, frames", "Longest frame", "Drawn in", "First time"],
+        f"lobes light (at most {FIRST_LIGHT:g}), and the longest of them. The first time in a process also compiles shaders. In "
+        f"TIME_SLICED also the longest frame of the next update (at most {LONGEST:g}).",
+        ["Renderer", "Mode", "Panorama", "An ordinary frame, ms", "First light, frames", "Longest frame", "Drawn in", "First time", "Next update's longest"],
         [
             [
                 name(r),
@@ -104,6 +104,7 @@ medians over its rounds; times are those of the machine that measured, here soft
                 f"{r['longest_frame_ratio']:.1f}",
                 f"{r['until_light']:.0f} frames",
                 f"{r['cold_frames']:.1f}",
+                f"{r['turn_longest_frame_ratio']:.1f}" if r["mode"] == "time_sliced" else "",
             ]
             for r in of("first-light")
         ],
