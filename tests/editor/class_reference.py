@@ -15,6 +15,7 @@ CLASSES = {
     "LobeGLTFExtension",
     "LobeImageFile",
     "LobeLight",
+    "LobeLightEncoder",
     "LobeLightFilter",
     "LobeMaterial3D",
     "LobeProbe3D",

@@ -2,24 +2,33 @@ extends GdUnitTestSuite
 ## Saved lights that are damaged are told of in one sentence, and show nothing.
 
 const Kit := preload("support/render_kit.gd")
+const LightFormats := preload("res://addons/lobelight/editor/light/light_formats.gd")
 const SkyKit := preload("support/sky_kit.gd")
 const PATH := "user://damaged_light_test.res"
 const TEXELS := 8
 const OUTSIDE := 0.25
 const INSIDE := 2.0
+const FORMATS := [
+	[LightFormats.Format.HALF],
+	[LightFormats.Format.SHARED_EXPONENT],
+	[LightFormats.Format.BPTC],
+	[LightFormats.Format.ASTC],
+]
 # What is wrong, and what is said of it.
 const CASES := [
-	["version", "The light was saved in form 7, this version reads 1: bake it again."],
+	["version", "The light was saved in form 7, this version reads up to 2: bake it again."],
 	["no faces", "The light has 0 faces, not 6: bake it again."],
 	["five faces", "The light has 5 faces, not 6: bake it again."],
-	["no face", "no half-float image of 8 texels with all levels: bake it again."],
-	["other size", "no half-float image of 8 texels with all levels: bake it again."],
-	["size", "no half-float image of 16 texels with all levels: bake it again."],
+	["no face", "no image of 8 texels"],
+	["other size", "no image of 8 texels"],
+	["size", "no image of 16 texels"],
 	["odd size", "The light's faces are 12 texels wide, no power of two: bake it again."],
 	["negative size", "The light's faces are -8 texels wide, no power of two: bake it again."],
-	["format", "no half-float image of 8 texels with all levels: bake it again."],
-	["no levels", "no half-float image of 8 texels with all levels: bake it again."],
+	["format", "no image of 8 texels"],
+	["no levels", "no image of 8 texels"],
 	["variance", "The light does not say what its levels were blurred with: bake it again."],
+	["byte", "The light is not as it was saved, its checksum differs: bake it again."],
+	["number", "The light is not as it was saved, its checksum differs: bake it again."],
 	["base", "The light does not say what its levels were blurred with: bake it again."],
 ]
 
@@ -46,8 +55,17 @@ func after_test() -> void:
 		DirAccess.remove_absolute(PATH)
 
 
-func test_a_whole_one_shows() -> void:
-	_save(_make_light())
+func test_a_whole_one_shows(format: LightFormats.Format, _test_parameters := FORMATS) -> void:
+	var light := _make_light()
+	var converted := LightFormats.convert_faces(light.faces, format)
+	assert_str(converted.get("error", "")).is_empty()
+	light.faces.assign(converted["faces"])
+	light.seal()
+	if format == LightFormats.Format.HALF:
+		# As the first form was saved.
+		light.version = 1
+		light.checksum = ""
+	_save(light)
 	_probe = LobeProbe3D.new()
 	_probe.light = _load_light()
 	_view.add_child(_probe)
@@ -63,14 +81,15 @@ func test_a_damaged_one_is_told(damage: String, told: String, _test_parameters :
 	_save(_damage(_make_light(), damage))
 	_probe = LobeProbe3D.new()
 	_view.add_child(_probe)
-	var of_face := "A face of the light is " if told.begins_with("no ") else ""
+	if told.begins_with("no "):
+		told = (
+			"A face of the light is %s with all levels in a format of lights: bake it again." % told
+		)
 	var light := _load_light()
 	var material: LobeMaterial3D = (_ball.mesh as SphereMesh).material
 	var give_material := func() -> void: material.light = light
 	var name := light.resource_path if light.resource_path else "Light"
-	await assert_error(give_material).is_push_error(
-		"LobeMaterial3D: %s: %s%s" % [name, of_face, told]
-	)
+	await assert_error(give_material).is_push_error("LobeMaterial3D: %s: %s" % [name, told])
 	await _assert_shows(OUTSIDE)
 	var give_probe := func() -> void:
 		_probe.light = light
@@ -79,7 +98,7 @@ func test_a_damaged_one_is_told(damage: String, told: String, _test_parameters :
 		_probe.hide()
 		_probe.show()
 		await RenderingServer.frame_post_draw
-	await assert_error(give_probe).is_push_error("LobeProbe3D: %s: %s%s" % [name, of_face, told])
+	await assert_error(give_probe).is_push_error("LobeProbe3D: %s: %s" % [name, told])
 	material.light = null
 	await _assert_shows(OUTSIDE)
 
@@ -127,6 +146,14 @@ func _damage(light: LobeLight, damage: String) -> LobeLight:
 			light.faces[5] = _make_face(TEXELS, Image.FORMAT_RGBAH, false)
 		"variance":
 			light.level_variance = NAN
+		"byte":
+			light.seal()
+			var data := light.faces[2].get_data()
+			data[5] ^= 1
+			light.faces[2] = Image.create_from_data(TEXELS, TEXELS, true, Image.FORMAT_RGBAH, data)
+		"number":
+			light.seal()
+			light.level_variance *= 2.0
 		"base":
 			light.base_variance = INF
 	return light

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# measures the fit's speed, memory and error beside NumPy's and SciPy's ([--quick] [--only PART] [--json FILE] [--out DIR]); runtime: first light, updates and properties in a running game; rooms: what probes cost a frame; flicker: bumps under a small sun
+# measures the fit's speed, memory and error beside NumPy's and SciPy's ([--quick] [--only PART] [--json FILE] [--out DIR]); runtime: first light, updates and properties in a running game; rooms: what probes cost a frame; flicker: bumps under a small sun; light-formats: what saved light keeps
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
-if [[ ${1:-} == runtime || ${1:-} == rooms || ${1:-} == flicker ]]; then
+if [[ ${1:-} == runtime || ${1:-} == rooms || ${1:-} == flicker || ${1:-} == light-formats ]]; then
   part=$1
   shift
   exec bash "$ROOT/tools/bench/$part.sh" "$@"

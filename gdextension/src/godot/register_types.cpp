@@ -9,6 +9,7 @@
 #include "godot/class_documentation.h"
 #include "godot/lobe_baker.h"
 #include "godot/lobe_image_file.h"
+#include "godot/lobe_light_encoder.h"
 #include "godot/lobe_light_filter.h"
 #include "godot/lobe_reference.h"
 #include "godot/lobe_task.h"
@@ -21,6 +22,7 @@ void initialize(godot::ModuleInitializationLevel level) {
   if (level == godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
     GDREGISTER_ABSTRACT_CLASS(lobelight::LobeTask);
     GDREGISTER_CLASS(lobelight::LobeBaker);
+    GDREGISTER_CLASS(lobelight::LobeLightEncoder);
     GDREGISTER_CLASS(lobelight::LobeLightFilter);
     GDREGISTER_CLASS(lobelight::LobeReference);
     GDREGISTER_CLASS(lobelight::LobeImageFile);

@@ -109,6 +109,7 @@ static func write(light: LobeLight, path: String) -> String:
 	var uid := ResourceUID.INVALID_ID
 	if FileAccess.file_exists(path):
 		uid = ResourceLoader.get_resource_uid(path)
+	light.seal()
 	var error := ResourceSaver.save(light, temporary, ResourceSaver.FLAG_COMPRESS)
 	if error == OK and uid != ResourceUID.INVALID_ID:
 		error = ResourceSaver.set_uid(temporary, uid)

@@ -8,22 +8,30 @@ extends Resource
 ## saved keeps its faces and what they were filtered with; where it belongs says the node that shows
 ## it, so that a scene with its light can be placed anywhere.
 
+## What faces can be saved in. Devices that cannot sample a format of blocks get half floats of it.
+const FORMATS: Array[Image.Format] = [
+	Image.FORMAT_RGBAH,
+	Image.FORMAT_RGBE9995,
+	Image.FORMAT_BPTC_RGBFU,
+	Image.FORMAT_ASTC_4x4_HDR,
+]
 # A unit vector's largest component is at least this.
 const _LEAST_COMPONENT := 0.57735027
 const _FACES := 6
-# Of the saved form; others are refused.
-const _VERSION := 1
+# Of the saved form; the first had no checksum and half floats only.
+const _VERSION := 2
 # Of what is saved as single floats.
 const _ROUNDING := 1e-3
 
 ## The form of what is saved.
 @export_storage var version := _VERSION
-## The faces +X −X +Y −Y +Z −Z with all their levels, half floats, linear radiance: what is
-## saved. Empty while the light is on the GPU only, see [method store].
+## The faces +X −X +Y −Y +Z −Z with all their levels, linear radiance in one of [constant FORMATS]:
+## what is saved. Empty while the light is on the GPU only.
 @export_storage var faces: Array[Image] = []:
 	set(value):
 		faces = value
 		cubemap = null
+		_is_checked = false
 		emit_changed()
 ## Texels along the side of a face.
 @export_storage var size := 1
@@ -46,6 +54,8 @@ const _ROUNDING := 1e-3
 	set(value):
 		base_energy = value
 		energy = value
+## What [method find_checksum] found when the light was saved; empty if nothing is to be checked.
+@export_storage var checksum := ""
 
 ## The cube map with all its levels. Of faces it is made when it is first asked for;
 ## [code]null[/code] while the light has no texture of its own.
@@ -72,6 +82,9 @@ var blend_distance := 0.0
 ## Where boxes overlap, those of a higher priority come first.
 var priority := 0
 
+# Whether the faces are known to have the checksum.
+var _is_checked := false
+
 
 ## No light, at levels that blur alike in all directions or not.
 static func make_dark(even: bool) -> LobeLight:
@@ -95,9 +108,9 @@ static func make_constant(colour: Color, even: bool) -> LobeLight:
 
 ## Why the light cannot be shown, in a sentence; empty if it can.
 func get_problem() -> String:
-	if version != _VERSION:
+	if version < 1 or version > _VERSION:
 		return (
-			"The light was saved in form %d, this version reads %d: bake it again."
+			"The light was saved in form %d, this version reads up to %d: bake it again."
 			% [version, _VERSION]
 		)
 	if faces.is_empty() and cubemap != null:
@@ -105,16 +118,26 @@ func get_problem() -> String:
 	if faces.size() != _FACES:
 		return "The light has %d faces, not 6: bake it again." % faces.size()
 	var odd := _find_odd_number()
-	if odd:
-		return odd
-	return (
-		""
-		if faces.all(_is_face)
-		else (
-			"A face of the light is no half-float image of %d texels with all levels: bake it again."
-			% size
-		)
+	return odd if odd else _find_damage()
+
+
+## Makes the light ready to be saved: with the checksum of what it has now.
+func seal() -> void:
+	version = _VERSION
+	checksum = find_checksum()
+	_is_checked = true
+
+
+## The checksum of all that is saved.
+func find_checksum() -> String:
+	var hashing := HashingContext.new()
+	hashing.start(HashingContext.HASH_MD5)
+	hashing.update(
+		var_to_bytes([size, level_variance, base_variance, is_even, axes, is_of_world, base_energy])
 	)
+	for face in faces:
+		hashing.update(face.get_data())
+	return hashing.finish().hex_encode()
 
 
 func _find_odd_number() -> String:
@@ -128,10 +151,26 @@ func _find_odd_number() -> String:
 	return ""
 
 
+func _find_damage() -> String:
+	if not faces.all(_is_face):
+		return (
+			(
+				"A face of the light is no image of %d texels with all levels in a format of lights: "
+				+ "bake it again."
+			)
+			% size
+		)
+	if not _is_checked and checksum and checksum != find_checksum():
+		return "The light is not as it was saved, its checksum differs: bake it again."
+	_is_checked = true
+	return ""
+
+
 func _is_face(face: Image) -> bool:
 	return (
 		face != null
-		and face.get_format() == Image.FORMAT_RGBAH
+		and face.get_format() in FORMATS
+		and face.get_format() == faces[0].get_format()
 		and face.get_size() == size * Vector2i.ONE
 		and (size == 1 or face.has_mipmaps())
 	)

@@ -140,8 +140,15 @@ func _upload(layer: int, faces: Array[Image]) -> void:
 		)
 
 
-# A face at the size of the array: what is finer than that is left out, what is coarser stretched.
-func _fit(face: Image) -> Image:
+# A face in half floats at the size of the array: what is finer than that is left out, what is
+# coarser stretched.
+func _fit(saved: Image) -> Image:
+	var face := saved
+	if face.get_format() != Image.FORMAT_RGBAH:
+		face = saved.duplicate()
+		if face.is_compressed():
+			face.decompress()
+		face.convert(Image.FORMAT_RGBAH)
 	if face.get_width() == size and (face.has_mipmaps() or size == 1):
 		return face
 	var data := face.get_data()
