@@ -92,7 +92,9 @@ func _import(
 	)
 	var made: Variant = filter(read, options, progress)
 	if made is LobeLight:
-		return ResourceSaver.save(made as LobeLight, path, ResourceSaver.FLAG_COMPRESS)
+		var light := made as LobeLight
+		light.seal()
+		return ResourceSaver.save(light, path, ResourceSaver.FLAG_COMPRESS)
 	if not progress.is_cancelled:
 		push_error("%s: %s" % [source, made])
 		return ERR_FILE_CORRUPT
