@@ -128,7 +128,6 @@ Line fit_line(const Target& target, std::uint32_t members, double& residual) {
     line.ends[0][c] = std::clamp(mean[c] + least * axis[c], 0.0, double{kLargestBits});
     line.ends[1][c] = std::clamp(mean[c] + most * axis[c], 0.0, double{kLargestBits});
   }
-  // Texels in their order, not darkest first: the first subset's first index must be a low one.
   return line;
 }
 
