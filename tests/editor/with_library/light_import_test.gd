@@ -3,6 +3,7 @@ extends GdUnitTestSuite
 ## Environment maps imported as baked lights in the running editor.
 
 const Kit := preload("res://tests/editor/editor_kit.gd")
+const LightFormats := preload("res://addons/lobelight/editor/light/light_formats.gd")
 const LightImporter := preload("res://addons/lobelight/editor/import/light_importer.gd")
 const PanoramaImporter := preload("res://addons/lobelight/editor/import/panorama_importer.gd")
 const Progress := preload("res://addons/lobelight/editor/import/import_progress.gd")
@@ -10,10 +11,17 @@ const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
 
 const FILES := "res://data"
 const FOLDER := "res://lights"
-const OPTIONS := {"size": 0, "filter": Pyramid.Filter.DISC, "layer": "", "exposure": 0.0}
+const OPTIONS := {
+	"size": 0,
+	"filter": Pyramid.Filter.DISC,
+	"format": LightFormats.Format.SHARED_EXPONENT,
+	"layer": "",
+	"exposure": 0.0,
+}
 ## File, options, texels along a face, the light's colour.
 const GOOD := [
 	["layers.exr", {}, 8, Color(10, 11, 12)],
+	["layers.exr", {"format": LightFormats.Format.BPTC}, 8, Color(10, 11, 12)],
 	["layers.exr", {"layer": "key", "size": 32}, 32, Color(1, 2, 3)],
 	["parts.exr", {"exposure": 1.0, "filter": Pyramid.Filter.GAUSSIAN}, 8, Color(4, 4, 4)],
 ]
@@ -77,6 +85,10 @@ func test_panoramas_are_imported_as_lights() -> void:
 		assert_object(light).append_failure_message(str(case)).is_not_null()
 		assert_str(light.get_problem()).is_empty()
 		assert_int(light.size).is_equal(case[2])
+		var format: LightFormats.Format = (case[1] as Dictionary).get(
+			"format", LightFormats.Format.SHARED_EXPONENT
+		)
+		assert_int(light.faces[0].get_format()).is_equal(LightFormats.IMAGE_FORMATS[format])
 		assert_bool(light.is_of_world).is_false()
 		for channel in 3:
 			var expected: float = (case[3] as Color)[channel]

@@ -6,6 +6,7 @@ extends "native_importer.gd"
 ## [br][br]
 ## It is chosen in the import dock; the engine's importer stays the one that files get by default.
 
+const LightFormats := preload("../light/light_formats.gd")
 const PanoramaFilter := preload("../light/panorama_filter.gd")
 const PanoramaImporter := preload("panorama_importer.gd")
 const Progress := preload("import_progress.gd")
@@ -49,6 +50,12 @@ func _get_import_options(path: String, _preset: int) -> Array[Dictionary]:
 			"default_value": Pyramid.Filter.DISC,
 			"property_hint": PROPERTY_HINT_ENUM,
 			"hint_string": "Gaussian:%d,Disc:%d" % [Pyramid.Filter.GAUSSIAN, Pyramid.Filter.DISC],
+		},
+		{
+			"name": "format",
+			"default_value": LightFormats.Format.SHARED_EXPONENT,
+			"property_hint": PROPERTY_HINT_ENUM,
+			"hint_string": "Half Floats,Shared Exponents,Blocks for Desktops,Blocks for Phones",
 		},
 		{
 			"name": "layer",
@@ -126,4 +133,10 @@ static func filter(read: Dictionary, options: Dictionary, progress: Progress) ->
 	if result.is_empty():
 		var error: String = task.call(&"get_error")
 		return error if error else "The import was cancelled."
-	return PanoramaFilter.make_light(request, result)
+	var light: LobeLight = PanoramaFilter.make_light(request, result)
+	var converted := LightFormats.convert_faces(light.faces, options["format"] as int)
+	if converted.has("error"):
+		return converted["error"]
+	light.faces = converted["faces"]
+	light.seal()
+	return light
