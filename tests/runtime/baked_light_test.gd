@@ -119,7 +119,7 @@ func test_the_editor_shows_what_counts() -> void:
 	assert_int(environment._get_configuration_warnings().size()).is_equal(1)
 	environment.light = _make_light()
 	var shown := _get_shown(environment)
-	assert_array(shown).not_contains(["update_mode", "measure_cost", "update_frames"])
+	assert_array(shown).not_contains(["update_mode", "update_interval", "update_frames"])
 	# What the next bake takes.
 	assert_array(shown).contains(["source", "panorama", "filter", "size", "energy", "light"])
 	assert_array(environment._get_configuration_warnings()).is_empty()

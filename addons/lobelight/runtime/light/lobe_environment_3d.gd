@@ -115,6 +115,7 @@ const _LIVE := "res://addons/lobelight/runtime/live/live_light.gd"
 # What says nothing of a baked light.
 const _OF_UPDATES: Array[StringName] = [
 	&"update_mode",
+	&"update_interval",
 	&"measure_cost",
 	&"update_gpu_time",
 	&"update_cpu_time",
