@@ -2,7 +2,9 @@ extends GdUnitTestSuite
 ## The class reference in doc_classes describes the native classes as they are.
 
 const FOLDER := "res://addons/lobelight/doc_classes"
-const NATIVE := ["LobeBaker", "LobeImageFile", "LobeLightEncoder", "LobeLightFilter", "LobeReference", "LobeTask"]
+const NATIVE := [
+	"LobeBaker", "LobeImageFile", "LobeLightEncoder", "LobeLightFilter", "LobeReference", "LobeTask"
+]
 
 
 ## What an XML file of the class reference says.

@@ -138,5 +138,4 @@ static func filter(read: Dictionary, options: Dictionary, progress: Progress) ->
 	if converted.has("error"):
 		return converted["error"]
 	light.faces = converted["faces"]
-	light.seal()
 	return light
