@@ -157,6 +157,41 @@ func test_panoramas_stay_that_a_sky_or_a_resource_shows() -> void:
 	DirAccess.remove_absolute("user://diet_sky.tscn")
 
 
+func test_panoramas_stay_out_where_the_light_baked_of_them_is_shown() -> void:
+	var scene: Node = (load(SCENE) as PackedScene).instantiate()
+	var environment: LobeEnvironment3D = scene.get_node("Light")
+	environment.light = LobeLight.make_constant(Color.GRAY, true)
+	var packed := PackedScene.new()
+	packed.pack(scene)
+	scene.free()
+	var file := "user://diet_baked.tscn"
+	ResourceSaver.save(packed, file)
+	var diet := Diet.of_files(PackedStringArray([file]))
+	var share: PanoramaFit.Share = diet.panoramas.shares[SUNSET]
+	assert_bool(share.is_left_out).is_true()
+	assert_int(share.after).is_equal(0)
+	var written := FileAccess.open("user://diet_edited.scn", FileAccess.WRITE)
+	written.store_buffer(diet.edit(file))
+	written.close()
+	var edited := load("user://diet_edited.scn") as PackedScene
+	assert_array(ResourceLoader.get_dependencies("user://diet_edited.scn")).is_not_empty()
+	scene = edited.instantiate()
+	environment = scene.get_node("Light")
+	assert_object(environment.panorama).is_null()
+	assert_object(environment.light).is_not_null()
+	scene.free()
+	# Where another scene draws light of it, and where a script may, it stays.
+	for other: String in [SCENE, "user://diet_panorama.gd"]:
+		if other.ends_with(".gd"):
+			written = FileAccess.open(other, FileAccess.WRITE)
+			written.store_string("func f(n):\n\tn.panorama = null\n")
+			written.close()
+		var both := Diet.of_files(PackedStringArray([file, other]))
+		assert_bool(both.panoramas.shares[SUNSET].is_left_out).is_false()
+	for path: String in [file, "user://diet_edited.scn", "user://diet_panorama.gd"]:
+		DirAccess.remove_absolute(path)
+
+
 func _expect_stay(file: String, stays: bool) -> void:
 	var diet := Diet.of_files(PackedStringArray([SCENE, file]))
 	var share: PanoramaFit.Share = diet.panoramas.shares[SUNSET]

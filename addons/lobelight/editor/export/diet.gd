@@ -123,7 +123,8 @@ func get_shared_files() -> Dictionary[String, PackedByteArray]:
 func edit(path: String) -> PackedByteArray:
 	if frozen.files.has(path):
 		return frozen.files[path]
-	if not lobes.files.has(path) and not fit.has_environment(path):
+	var has_environment := fit.has_environment(path) or panoramas.scenes.has(path)
+	if not lobes.files.has(path) and not has_environment:
 		return PackedByteArray()
 	var resource := _load_edited(path)
 	if not _is_edited:
@@ -137,6 +138,8 @@ func _load_edited(path: String) -> Resource:
 	var packed := resource as PackedScene
 	if packed != null and fit.has_environment(path):
 		_is_edited = fit.edit(packed) or _is_edited
+	if packed != null and panoramas.scenes.has(path):
+		_is_edited = panoramas.edit(packed) or _is_edited
 	return resource
 
 

@@ -121,10 +121,12 @@ func _export_file(path: String, type: String, _features: PackedStringArray) -> v
 		_export_code(path, _diet.code.files[path])
 
 
-# A panorama that is made smaller. Not by the engine's way to put a file in the place of another:
-# the loader of textures wants the type that a .import file names.
+# A panorama that is made smaller, or left out. Not by the engine's way to put a file in the place of
+# another: the loader of textures wants the type that a .import file names.
 func _export_panorama(share: Diet.PanoramaFit.Share) -> void:
-	if not share.bytes.is_empty():
+	if share.is_left_out:
+		skip()
+	elif not share.bytes.is_empty():
 		var file := Diet.EDITED + share.path.md5_text() + ".ctex"
 		add_file(file, share.bytes, false)
 		add_file(share.path + ".import", share.make_import(file), false)

@@ -119,6 +119,8 @@ const _FALLBACK := "rendering/rendering_device/fallback_to_opengl3"
 var reached: Dictionary[String, String] = {}
 ## Of each [LobeEnvironment3D] in a scene, [file, properties].
 var environments: Array[Array] = []
+## The same of those that show a baked light.
+var baked: Array[Array] = []
 ## Who may give one another size or panorama, in a sentence; empty if nobody does.
 var resizing := ""
 
@@ -242,6 +244,7 @@ func look_at_node(file: String, properties: Dictionary, type: StringName) -> voi
 		add(OnDemand.PLACES, file)
 	# Unless its light was baked.
 	if properties.get("light") != null:
+		baked.append([file, properties])
 		return
 	add(OnDemand.LIVE, file)
 	environments.append([file, properties])

@@ -6,10 +6,12 @@ extends RefCounted
 ## of a panorama. Finer ones are halved, each texel the mean of four, while that many are left: at
 ## least twice S, so that level 0 stays as sharp as it is (runtime/pyramid/pyramid.gd,
 ## base_variance). Only panoramas that are seen through the cube map alone: what else shows one may
-## need all of it.
+## need all of it. Those that no environment shows any more, because its light was baked of them,
+## stay out.
 
 const EnvironmentFit := preload("environment_fit.gd")
 const Features := preload("features.gd")
+const OnDemand := preload("../../runtime/on_demand.gd")
 const Pyramid := preload("../../runtime/pyramid/pyramid.gd")
 const ProjectFiles := preload("project_files.gd")
 
@@ -31,6 +33,7 @@ class Share:
 	var why := ""
 	## A .ctex file; empty if the texture goes along as it is.
 	var bytes := PackedByteArray()
+	var is_left_out := false
 
 	## The .import file of a panorama whose texture is another file.
 	func make_import(texture: String) -> PackedByteArray:
@@ -65,6 +68,8 @@ class Share:
 
 ## By the panoramas' paths.
 var shares: Dictionary[String, Share] = {}
+## Scenes with environments whose panoramas are left out.
+var scenes: Dictionary[String, bool] = {}
 
 
 ## Of the environments' panoramas among a project's files. [param fit] knows the cubes' sizes.
@@ -80,7 +85,56 @@ static func of(files: PackedStringArray, features: Features, fit: EnvironmentFit
 			sizes[path] = maxi(sizes.get(path, 0), size)
 	for path in sizes:
 		panoramas.shares[path] = _share_of(path, sizes[path], files, features)
+	for entry in features.baked:
+		panoramas._leave_out((entry[1] as Dictionary).get("panorama"), entry[0], files, features)
 	return panoramas
+
+
+## Takes the panoramas that are left out from the environments in a scene. Returns whether there was
+## one.
+func edit(packed: PackedScene) -> bool:
+	var scene := packed.instantiate(PackedScene.GEN_EDIT_STATE_INSTANCE)
+	var is_changed := false
+	for node: Node in scene.find_children("*", "LobeEnvironment3D") + [scene]:
+		var environment := node as LobeEnvironment3D
+		var panorama := environment.panorama if environment != null else null
+		if panorama != null and (node == scene or node.owner == scene):
+			var share: Share = shares.get(panorama.resource_path)
+			if share != null and share.is_left_out:
+				environment.panorama = null
+				is_changed = true
+	is_changed = is_changed and packed.pack(scene) == OK
+	scene.free()
+	return is_changed
+
+
+# A panorama of an environment that shows a baked light.
+func _leave_out(
+	panorama: Texture2D, file: String, files: PackedStringArray, features: Features
+) -> void:
+	var path := panorama.resource_path if panorama != null else ""
+	if not FileAccess.file_exists(path + ".import"):
+		return
+	if not shares.has(path):
+		var share := Share.new()
+		share.path = path
+		share.before = _get_imported_bytes(path)
+		share.after = share.before
+		share.extent_before = Vector2i(panorama.get_size())
+		share.extent_after = share.extent_before
+		share.why = features.resizing
+		if share.why.is_empty() and features.reached.has(OnDemand.LIVE):
+			share.why = "%s asks for %s" % [features.reached[OnDemand.LIVE], OnDemand.LIVE]
+		if share.why.is_empty():
+			share.why = _find_other_use(path, files, features)
+		if share.why.is_empty():
+			share.is_left_out = true
+			share.after = 0
+			share.extent_after = Vector2i.ZERO
+			share.why = "the light that was baked of it is shown in its place"
+		shares[path] = share
+	if shares[path].is_left_out:
+		scenes[file] = true
 
 
 func describe() -> PackedStringArray:
@@ -170,7 +224,7 @@ static func _find_other_use(path: String, files: PackedStringArray, features: Fe
 static func _shows_elsewhere(path: String, file: String, features: Features) -> bool:
 	var texture: Texture2D = load(path)
 	var uses := 0
-	for entry in features.environments:
+	for entry in features.environments + features.baked:
 		if entry[0] == file and (entry[1] as Dictionary).get("panorama") == texture:
 			uses += 1
 	var state := (load(file) as PackedScene).get_state()
