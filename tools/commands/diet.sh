@@ -11,7 +11,7 @@ SCENE           a .tscn or .scn with all that it depends on
 PROJECT         a folder with a project.godot and this addon: all its files
 --target DB     materials get the fewest lobes that have this PSNR, as with the preset's "Lobelight > Target Psnr"
 --json FILE     the same as numbers
---acceptance    exports six scenes with all of the addon and with what they need of it, and compares their pictures
+--acceptance    exports some scenes with all of the addon and with what they need of it, and compares their pictures
 --instructions  also counts what phones' GPUs execute a pixel, as ./dev mobile-cost does (fetches compilers once)
 --out DIR       where README.md and results.json of the acceptance go (docs/report/diet)
 

@@ -2,7 +2,7 @@
 
 HEAD = """# What exports leave out
 
-Written by `./dev diet --acceptance --instructions --out docs/report/diet`. A project with the addon and six scenes is exported
+Written by `./dev diet --acceptance --instructions --out docs/report/diet`. A project with the addon and some scenes is exported
 with everything, and once for each scene with that scene alone and what it can reach; each pack is run and draws its scene in
 the three renderers.
 Bytes are those of the pack below `addons/lobelight`. *environment* is the size, in texels along a face, that an environment of
@@ -28,7 +28,8 @@ TARGETS = """
 ## With a target error
 
 The preset's *Lobelight > Target Psnr* gives each material the fewest lobes that hold it on a synthetic environment and on the
-project's panoramas; *held* is that PSNR. The pictures are compared with those of all lobes.
+project's panoramas; *held* is that PSNR. The pictures are compared with those of all lobes. These
+materials are not frozen.
 
 """
 TARGET_HEADINGS = ["scene's material", "target", "lobes", "held", "bytes", "pictures apart at least"]
@@ -55,7 +56,8 @@ def table(head, rows):
 def byte_rows(rows):
     for row in rows:
         sizes = row["after_by_folder"]
-        folders = [f"{sizes.get(folder, 0):,}" for folder in ("runtime", "tables")]
+        run_time = sizes.get("runtime", 0) + sizes.get("frozen", 0)
+        folders = [f"{run_time:,}", f"{sizes.get('tables', 0):,}"]
         size = row["report"]["environment_size"] or "as set"
         bytes_left = [f"{row['before']:,}", f"{row['after']:,}", *folders, f"{row['gone']:.1%}"]
         yield [row["label"], *bytes_left, size, f"{min(row['psnr'].values()):.1f} dB"]

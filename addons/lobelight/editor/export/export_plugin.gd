@@ -121,7 +121,7 @@ func _export_file(path: String, type: String, _features: PackedStringArray) -> v
 		_export_code(path, _diet.code.files[path])
 
 
-# A panorama that is made smaller, or left out. Not by the engine's way to put a file in the place of
+# A panorama that is left out or made smaller, not by the engine's way to put a file in the place of
 # another: the loader of textures wants the type that a .import file names.
 func _export_panorama(share: Diet.PanoramaFit.Share) -> void:
 	if share.is_left_out:
