@@ -134,7 +134,7 @@ def seen_probe():
 
 
 def expect_isotropic_view(row):
-    normal, view, alpha = vector(row[:3]), vector(row[4:7]), row[3]
+    normal, view = vector(row[:3]), vector(row[4:7])
     o, toward, tangent = shader.view_of(normal, view)
     cosine = dot(normal, view)
     sine = float(norm(shader.minus(view, shader.scaled(normal, cosine))))
@@ -156,8 +156,18 @@ def expect_isotropic_view(row):
         checks.append(Near((12, 13, 14), toward, unit + slack * float(o[0]) + 4 * U + lost, "radians"))
     near_unit = 4 * abs(float(norm(normal)) - 1) + 4 * slack + 8 * U
     checks.append(Holds(lambda results: (orthonormality(results), near_unit, "orthonormal")))
-    checks.append(Holds(partial(half_vector_error, (alpha, alpha))))
+    checks.append(Holds(plane_error))
     return checks
+
+
+def plane_error(results):
+    """The plane's two directions, by what the shader itself has of frame and view."""
+    sine, up = results[9], results[11]
+    off = 0.0
+    for i in range(3):
+        tangent, normal = results[i], results[6 + i]
+        off = max(off, abs(results[17 + i] - (normal * up - tangent * sine)), abs(results[20 + i] - (tangent * up + normal * sine)))
+    return off, 4 * U, "directions"
 
 
 def half_vector_error(alpha, results):

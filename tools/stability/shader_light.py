@@ -61,24 +61,22 @@ def sums(table, view, cube, values, to_space, roughness=0.0, anisotropy=0.0, vis
     for lobe in lobes:
         seen = to_space(lobe.mean)
         wanted, *bounds = look_up(cube, seen, lobe.variance, values, lobe.mean_bound, lobe.variance_bound)
-        grazing = shader.schlick(lobe.cosine)
         share, *share_off = visible(lobe, seen) if visible else (mpf(1), 0.0, 0.0)
-        weighted = np.array([share * lobe.weight * t * w for t, w in zip(lobe.tint, wanted)], dtype=object)
-        totals[0] += weighted
-        totals[1] += grazing * weighted
+        lit = np.array([share * t * w for t, w in zip(lobe.tint, wanted)], dtype=object)
+        totals[0] += lobe.weight * lit
+        totals[1] += lobe.grazing * lit
         totals[2] += lobe.weight
-        totals[3] += grazing * lobe.weight
-        w, tint, x = float(lobe.weight), float(max(lobe.tint)), float(grazing)
+        totals[3] += lobe.grazing
+        w, tint, x = float(lobe.weight), float(max(lobe.tint)), float(lobe.grazing)
         brightest = float(max(wanted))
         for n in (0, 1):
-            cosine = float(lobe.cosine)
-            x_off = float(shader.schlick(cosine - lobe.cosine_bound[n])) - x + (8 * U * x if n == 0 else 0.0)
             tint_off = (lobe.tint_bound, 12 * HALF * table.second)[n]
             w_off = lobe.weight_bound[n] + (3 * U * w if n == 0 else 0.0)
-            light_off = w_off * tint * brightest + w * (tint * bounds[n] + tint_off * brightest)
-            light_off = float(share) * light_off + share_off[n] * w * tint * brightest
-            lit = float(share) * w * tint * brightest
-            off[:, n] += (light_off, x * light_off + x_off * lit, w_off, x * w_off + x_off * w)
+            x_off = lobe.grazing_bound[n] + (3 * U * x if n == 0 else 0.0)
+            # Of the light itself, and with the weight's.
+            lit_off = float(share) * (tint * bounds[n] + tint_off * brightest) + share_off[n] * tint * brightest
+            most = float(share) * tint * brightest
+            off[:, n] += (w * lit_off + w_off * most, x * lit_off + x_off * most, w_off, x_off)
     off[:, 0] += 2 * U * len(lobes) * np.array([float(max(totals[0])), float(max(totals[1])), *map(float, totals[2:])])
     return totals, off
 
@@ -221,7 +219,6 @@ def coat_probes(quick):
             lookup = table.lookup()
             probe.textures = {"lobelight_coat_table": table.name}
             probe.uniforms = {
-                "lobelight_coat_alpha": table.alpha[:1],
                 "lobelight_coat_lookup": (lookup[0], lookup[1], lookup[3]),
             }
             rows = []
@@ -271,7 +268,6 @@ def sheen_probes(quick):
         lookup = table.lookup()
         probe.textures = {"lobelight_sheen_table": table.name}
         probe.uniforms = {
-            "lobelight_sheen_alpha": table.alpha[:1],
             "lobelight_sheen_lookup": (lookup[0], lookup[1], lookup[3]),
         }
         rows = []

@@ -104,7 +104,6 @@ class Surface:
             lookup = self.coat.lookup()
             values |= {
                 "lobelight_coat_amount": (COAT_STRENGTH, 0.3),
-                "lobelight_coat_alpha": self.coat.alpha[:1],
                 "lobelight_coat_lookup": (lookup[0], lookup[1], lookup[3]),
             }
         return values

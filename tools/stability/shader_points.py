@@ -113,10 +113,12 @@ def expect_decode(row):
     mean, variance, cosine = shader.lobe(texel, tuple(map(vector, half_vectors)), vector(o))
     mean_bound, cosine_bound = lobe_bounds(texel[0], texel[1], half_vectors, o)
     relative = cosine_bound / float(cosine) + exp2_error(texel[2]) + 2 * U
+    grazing = shader.schlick(cosine)
+    grazing_bound = float(shader.schlick(float(cosine) - cosine_bound)) - float(grazing) + 10 * U * float(grazing)
     return [
         Near((0, 1, 2), mean, mean_bound, "radians", scale=1 / math.sqrt(float(variance))),
         Near((3,), (variance,), float(variance) * relative, "variance"),
-        Near((4,), (cosine,), cosine_bound, "cosine"),
+        Near((4,), (texel[3] * grazing,), texel[3] * grazing_bound + U, "weight"),
         Near((5,), (texel[3],), U, "weight"),
     ]
 

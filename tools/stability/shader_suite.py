@@ -32,7 +32,7 @@ from probes import (
     temporary_folder,
     write_jobs,
 )
-from shader_tables import Table
+from shader_tables import Table, plane_texels
 from verdict import broken, rows
 
 # Where mediump is rounded; the formulas are the same in all.
@@ -51,6 +51,8 @@ def fitted_tables(records, quick):
         texels = halves.transpose(2, 0, 1, 3).reshape(1, lobes * azimuths, columns, 4)
         if not np.isfinite(texels).all():
             continue
+        if azimuths == 1:
+            texels = plane_texels(texels, record["alpha"][0])
         table = Table(f"fitted_{number}", texels, lobes, tuple(record["alpha"]), azimuths == 1)
         yield table, record["name"].removeprefix("table ")
 

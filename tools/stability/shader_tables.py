@@ -16,7 +16,7 @@ from shader_widths import ROUGHNESSES, exact_levels, set_levels, width_errors
 
 @dataclass(eq=False)
 class Table:
-    """Texels as half floats hold them: (layers, rows, columns, 4), rows as lobe_table.gdshaderinc has them.
+    """Texels as half floats hold them: (layers, rows, columns, 4), both as lobe_table.gdshaderinc has them.
 
     `places` is the number of rows of a lobe: azimuths or, of isotropic tables of all widths, widths."""
 
@@ -117,14 +117,14 @@ class Lobe:
 
     mean: tuple
     variance: mpf
-    cosine: mpf
     weight: mpf
+    grazing: mpf  # the weight times what Schlick's Fresnel has of f90 - f0
     tint: tuple
     tint_bound: float
     mean_bound: tuple
     variance_bound: tuple  # relative
-    cosine_bound: tuple
     weight_bound: tuple
+    grazing_bound: tuple
 
 
 def places(table, o, roughness, anisotropy):
@@ -201,6 +201,9 @@ def expect_lobes(table, view, roughness=0.0, anisotropy=0.0, only=None):
         # Where halves have fewer bits, they are 2^-24 apart.
         half = np.array([HALF * abs(float(t)) + 2.0**-24 for t in texel])
         tint = tint_of(table, row, column, row_off, column_off)
+        if table.isotropic:
+            lobes.append(plane_lobe_of(texel, o, tangent, off, half, view_bound, skew, tint))
+            continue
         lobes.append(lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bound, skew, tint))
     return o, lobes
 
@@ -236,21 +239,40 @@ def lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bou
     floats = [tuple(map(float, v)) for v in half_vectors]
     rounding, cosine_rounding = lobe_bounds(x, y, floats, [float(v) for v in toward])
     bounds = []
+    weight, grazing = texel[3], shader.schlick(cosine)
     for error in (off, half):
         first = not bounds
         angle = turned(error) if first else (a[0] * error[0] + a[1] * error[1]) / length
         extra = view_bound + 2 * skew * math.hypot(a[0] * x, a[1] * y) / length if first else 0.0
         cosine_bound = angle + extra + (cosine_rounding if first else 0.0)
         exponent = math.log(2) * error[2] + cosine_bound / float(cosine)
+        weight_bound = error[3] + (2 * U * abs(float(weight)) if first else 0.0)
+        x = float(grazing)
+        x_off = float(shader.schlick(float(cosine) - cosine_bound)) - x + (10 * U * x if first else 0.0)
         bounds.append(
             (
                 min(2 * angle + 2 * extra + (rounding if first else 0.0), 2.0),
                 math.expm1(min(exponent, 50.0)) + (exp2_error(float(texel[2])) + 2 * U if first else 0.0),
-                cosine_bound,
-                error[3] + (2 * U * abs(float(texel[3])) if first else 0.0),
+                weight_bound,
+                x * weight_bound + x_off * (float(weight) + weight_bound),
             )
         )
-    return Lobe(mean, variance, cosine, texel[3], *tint, *zip(*bounds))
+    return Lobe(mean, variance, weight, grazing * weight, *tint, *zip(*bounds))
+
+
+def plane_lobe_of(texel, o, tangent, off, half, view_bound, skew, tint):
+    """A lobe of an isotropic table, whose texels lie in the plane of incidence."""
+    mean, variance, weight, grazing = shader.plane_lobe(texel, o, tangent)
+    size = math.sqrt(float(variance))
+    bounds = []
+    for error in (off, half):
+        first = not bounds
+        angle = math.hypot(error[0], error[1]) / size
+        relative = 2 * angle + angle**2 + (6 * U if first else 0.0)
+        extra = 2 * view_bound + 2 * skew + 24 * U if first else 0.0
+        rounding = [2 * U * abs(float(x)) if first else 0.0 for x in texel[2:]]
+        bounds.append((min(angle + extra, 2.0), relative, error[2] + rounding[0], error[3] + rounding[1]))
+    return Lobe(mean, variance, weight, grazing, *tint, *zip(*bounds))
 
 
 def expect_lobe(table, row):
@@ -262,7 +284,7 @@ def expect_lobe(table, row):
     checks = [
         Near((0, 1, 2), lobe.mean, lobe.mean_bound[0], "radians", lobe.mean_bound[1], scale),
         Near((3,), (1,), lobe.variance_bound[0], "variance", lobe.variance_bound[1]),
-        Near((4,), (lobe.cosine,), lobe.cosine_bound[0], "cosine", lobe.cosine_bound[1]),
+        Near((4,), (lobe.grazing,), lobe.grazing_bound[0] + 1e-12, "weight", lobe.grazing_bound[1]),
         Near((5,), (lobe.weight,), lobe.weight_bound[0] + 1e-12, "weight", lobe.weight_bound[1]),
     ]
     checks[1] = RelativeVariance(3, variance, *lobe.variance_bound)
@@ -285,7 +307,20 @@ class RelativeVariance:
 # Tables
 
 
-def odd_texels(rng, layers, rows, columns, lobes, second):
+def plane_texels(texels, alpha):
+    """Of an isotropic table, as runtime/table/plane_lobes.gd makes them, for the same views."""
+    rest = 1 - np.arange(texels.shape[2]) / (texels.shape[2] - 1)
+    elevation = float(shader.LAST_ELEVATION) * (1 - rest**2)
+    sine, up = np.sin(elevation), np.cos(elevation)
+    x = alpha * texels[..., 0]
+    length = np.sqrt(1 + x * x)
+    cosine = np.maximum((up + sine * x) / length, 1e-4)
+    size = np.sqrt(cosine * 2.0 ** -texels[..., 2]) / length**2
+    grazing = texels[..., 3] * np.maximum(1 - cosine, 0) ** 5
+    return np.stack([(1 - x * x) * size, 2 * x * size, texels[..., 3], grazing], axis=-1)
+
+
+def odd_texels(rng, layers, rows, columns, lobes, second, is_plane):
     """Lobes that differ in every component and change with the view, a little from texel to texel."""
     per_lobe = rows // lobes
     texels = np.zeros((layers, rows, columns, 4))
@@ -298,6 +333,8 @@ def odd_texels(rng, layers, rows, columns, lobes, second):
                     texel = start + drift[0] * p / per_lobe * 2 + drift[1] * t / columns * 2
                     texels[layer, k * per_lobe + p, t] = texel
     texels[..., 3] = np.abs(texels[..., 3])
+    if is_plane:
+        texels = plane_texels(texels, 0.1)
     if not second:
         return texels
     tints = np.zeros_like(texels)
@@ -317,7 +354,7 @@ def odd_table(name, lobes, columns, azimuths, alpha=(0.1, 0.1), second=False, le
             per_lobe = count
         else:
             layers = count * (count + 1) // 2
-    texels = odd_texels(rng, layers, lobes * per_lobe, columns, lobes, second)
+    texels = odd_texels(rng, layers, lobes * per_lobe, columns, lobes, second, isotropic)
     return Table(name, texels, lobes, alpha, isotropic, second, levels)
 
 

@@ -88,7 +88,9 @@ static func _append_rows(
 			for t in 5:
 				var elevation := t / 4.0
 				row.append(0.8 * sin(2.0 * k + 1.5 * place.x + elevation) + 0.2 * p)
-				row.append(0.6 * cos(3.0 * k - 2.0 * place.y + elevation) - 0.1 * p)
+				# Isotropic tables' lobes lie in the plane of incidence.
+				var beside := 0.6 * cos(3.0 * k - 2.0 * place.y + elevation) - 0.1 * p
+				row.append(beside if azimuths > 1 else 0.0)
 				row.append(3.0 + k + 3.0 * (1.0 - place.x) + 2.0 * (1.0 - place.y) + elevation)
 				row.append((0.7 + 0.2 * k + 0.2 * place.x - 0.3 * elevation * place.y) / lobes)
 			rows.append(row)

@@ -48,7 +48,8 @@ static func make_odd_table(
 			for t in views.x:
 				var texel := Color(
 					slope.x + 0.1 * t / views.x,
-					slope.y - 0.1 * p / views.y,
+					# Those of isotropic tables lie in the plane of incidence.
+					slope.y - 0.1 * p / views.y if views.y > 1 else 0.0,
 					sharpness + 0.5 * k / lobes + 0.3 * t / views.x,
 					weight * (1.0 - 0.5 * t / views.x + 0.1 * p)
 				)

@@ -20,6 +20,8 @@ const MAX_VIEW_ANGLE := deg_to_rad(89.4)
 ## The largest [member lobe_count].
 const MAX_LOBES := 32
 
+const PlaneLobes := preload("plane_lobes.gd")
+
 ## The name of the BRDF that was fitted.
 @export var brdf := "":
 	set(value):
@@ -184,7 +186,8 @@ func has_second_texels() -> bool:
 func get_texture() -> Texture2D:
 	_mutex.lock()
 	if _texture == null and get_problem().is_empty():
-		_texture = ImageTexture.create_from_image(image)
+		var shown := PlaneLobes.convert(image, lobe_count, alpha.x) if is_isotropic() else image
+		_texture = ImageTexture.create_from_image(shown)
 	var texture := _texture
 	_mutex.unlock()
 	return texture
@@ -193,10 +196,11 @@ func get_texture() -> Texture2D:
 ## (scale, offset) from a view's column, in [0, 1], to the texture's u, then from its azimuth in
 ## radians to the v of lobe 0.
 func get_lookup() -> Vector4:
-	var u_scale := float(views.x - 1) / views.x
+	var columns := PlaneLobes.get_columns(views.x) if is_isotropic() else views.x
+	var u_scale := float(columns - 1) / columns
 	var height := views.y * lobe_count * (2 if has_second_texels() else 1)
 	var v_scale := (views.y - 1) / (0.5 * PI * height)
-	return Vector4(u_scale, 0.5 / views.x, v_scale, 0.5 / height)
+	return Vector4(u_scale, 0.5 / columns, v_scale, 0.5 / height)
 
 
 ## The column of an elevation in radians, from 0 to [code]views.x - 1[/code]; whole numbers are

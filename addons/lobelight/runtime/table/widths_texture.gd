@@ -13,6 +13,8 @@ const TOLERANCE := 1e-3
 ## The layers that 3D textures have on every device (OpenGL ES 3.0, table 6.28; Vulkan 1.0, 31.1).
 const MAX_LAYERS := 256
 
+const PlaneLobes := preload("plane_lobes.gd")
+
 var texture: Texture
 ## As [method LobeTable.get_lookup]; for isotropic tables, from a width's number to v.
 var lookup: Vector4
@@ -30,7 +32,7 @@ static func make(
 	var scale := last * log(2.0) / log(widths[last] / widths[0])
 	result.levels = Vector3(scale, -scale * log(widths[0]) / log(2.0), last)
 	if isotropic:
-		result._make_isotropic(lobes, tables)
+		result._make_isotropic(widths, lobes, tables)
 	else:
 		@warning_ignore("integer_division")
 		result._make_anisotropic(tables[0].get_height() / lobes, tables)
@@ -55,17 +57,18 @@ static func find_problem(widths: PackedFloat64Array, isotropic: bool) -> String:
 	return ""
 
 
-func _make_isotropic(lobes: int, tables: Array[Image]) -> void:
+func _make_isotropic(widths: PackedFloat64Array, lobes: int, tables: Array[Image]) -> void:
 	var count := tables.size()
-	var views := tables[0].get_width()
-	var image := Image.create_empty(views, lobes * count, false, Image.FORMAT_RGBAH)
+	var columns := PlaneLobes.get_columns(tables[0].get_width())
+	var image := Image.create_empty(columns, lobes * count, false, Image.FORMAT_RGBAH)
 	for level in count:
+		var table := PlaneLobes.convert(tables[level], lobes, widths[level])
 		for lobe in lobes:
-			var row := Rect2i(0, lobe, views, 1)
-			image.blit_rect(tables[level], row, Vector2i(0, lobe * count + level))
+			var row := Rect2i(0, lobe, columns, 1)
+			image.blit_rect(table, row, Vector2i(0, lobe * count + level))
 	texture = ImageTexture.create_from_image(image)
 	var rows := 1.0 / (lobes * count)
-	lookup = _get_columns(views) + Vector4(0.0, 0.0, rows, 0.5 * rows)
+	lookup = _get_columns(columns) + Vector4(0.0, 0.0, rows, 0.5 * rows)
 
 
 func _make_anisotropic(azimuths: int, tables: Array[Image]) -> void:

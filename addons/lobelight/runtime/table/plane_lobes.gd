@@ -1,0 +1,70 @@
+@tool
+extends RefCounted
+## The lobes of isotropic tables as the shader takes them.
+##
+## They lie in the plane of incidence and only the view moves them, so that directions, variances
+## and Fresnel's factor are computed here, once. A texel is (d · r, d · q, weight, weight ·
+## (1 − o · h)⁵), d being the lobe's mean times the square root of its variance, r the mirror
+## direction of the view o, and q the direction across r in the plane, on the view's side
+## ([code]lobelight_plane_lobe[/code] in [code]shaders/lobe_table.gdshaderinc[/code]).
+
+# As the shader takes half-vectors that are turned away from the view.
+const _LEAST_COSINE := 1e-4
+# Views are at least as many steps apart: what is converted is to be mixed over short ways only.
+const _LEAST_STEPS := 30.0
+
+
+## The width of the image for a table of so many elevations.
+static func get_columns(views: int) -> int:
+	return (views - 1) * ceili(_LEAST_STEPS / (views - 1.0)) + 1
+
+
+## The image of a table of one azimuth ([member LobeTable.image]), converted; second texels stay.
+static func convert(image: Image, lobes: int, alpha: float) -> Image:
+	var views := image.get_width()
+	var columns := get_columns(views)
+	@warning_ignore("integer_division")
+	var parts := (columns - 1) / (views - 1)
+	var floats := image.duplicate() as Image
+	floats.convert(Image.FORMAT_RGBAF)
+	var given := floats.get_data().to_vector4_array()
+	var texels := PackedVector4Array()
+	texels.resize(columns * image.get_height())
+	var at := 0
+	for row in image.get_height():
+		for column in columns:
+			@warning_ignore("integer_division")
+			var first := views * row + mini(column / parts, views - 2)
+			var way := float(column - parts * mini(column / parts, views - 2)) / parts
+			var texel := given[first].lerp(given[first + 1], way)
+			if row < lobes:
+				var rest := 1.0 - float(column) / (columns - 1)
+				var elevation := LobeTable.MAX_VIEW_ANGLE * (1.0 - rest * rest)
+				texel = _convert_texel(texel, Vector2(sin(elevation), cos(elevation)), alpha)
+			texels[at] = texel
+			at += 1
+	var result := Image.create_from_data(
+		columns, image.get_height(), false, Image.FORMAT_RGBAF, texels.to_byte_array()
+	)
+	result.convert(Image.FORMAT_RGBAH)
+	return result
+
+
+# Lobes of other tables may lie beside the plane. These are brought into it, and are wider by that:
+# the two of a pair to both sides become one about the same middle.
+static func _convert_texel(texel: Vector4, o: Vector2, alpha: float) -> Vector4:
+	var x := texel.x * alpha
+	var y := texel.y * alpha
+	var inverse_length := 1.0 / sqrt(1.0 + x * x + y * y)
+	var cosine := maxf((o.y + o.x * x) * inverse_length, _LEAST_COSINE)
+	# The mean is 2 (o.h) h - o.
+	var size := 2.0 * cosine * inverse_length
+	var along := size * x - o.x
+	var up := size - o.y
+	var beside := size * y * size * y
+	var variance := cosine * pow(2.0, -texel.z) + 0.5 * beside
+	var scale := sqrt(variance / maxf(1.0 - beside, 1e-4))
+	var grazing := texel.w * pow(maxf(1.0 - cosine, 0.0), 5.0)
+	return Vector4(
+		(o.y * up - o.x * along) * scale, (o.y * along + o.x * up) * scale, texel.w, grazing
+	)
