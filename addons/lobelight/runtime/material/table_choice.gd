@@ -110,9 +110,6 @@ func follow(surface: LobeBaseMaterial3D, material: RID) -> bool:
 		var width := clampf(roughness * roughness, _least, _largest)
 		_row_lookup.w = _row_step * log(width) + _first_row
 		RenderingServer.material_set_param(material, &"lobelight_table_lookup", _row_lookup)
-		RenderingServer.material_set_param(
-			material, &"lobelight_table_alpha", Vector2(width, width)
-		)
 		return true
 	if turned != anisotropy:
 		anisotropy = turned

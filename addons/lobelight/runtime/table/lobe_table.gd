@@ -186,7 +186,9 @@ func has_second_texels() -> bool:
 func get_texture() -> Texture2D:
 	_mutex.lock()
 	if _texture == null and get_problem().is_empty():
-		var shown := PlaneLobes.convert(image, lobe_count, alpha.x) if is_isotropic() else image
+		var shown := image
+		if is_isotropic():
+			shown = PlaneLobes.convert(image, lobe_count, alpha.x, MAX_VIEW_ANGLE)
 		_texture = ImageTexture.create_from_image(shown)
 	var texture := _texture
 	_mutex.unlock()

@@ -20,7 +20,8 @@ static func get_columns(views: int) -> int:
 
 
 ## The image of a table of one azimuth ([member LobeTable.image]), converted; second texels stay.
-static func convert(image: Image, lobes: int, alpha: float) -> Image:
+## [param last] is the last view's elevation.
+static func convert(image: Image, lobes: int, alpha: float, last: float) -> Image:
 	var views := image.get_width()
 	var columns := get_columns(views)
 	@warning_ignore("integer_division")
@@ -39,7 +40,7 @@ static func convert(image: Image, lobes: int, alpha: float) -> Image:
 			var texel := given[first].lerp(given[first + 1], way)
 			if row < lobes:
 				var rest := 1.0 - float(column) / (columns - 1)
-				var elevation := LobeTable.MAX_VIEW_ANGLE * (1.0 - rest * rest)
+				var elevation := last * (1.0 - rest * rest)
 				texel = _convert_texel(texel, Vector2(sin(elevation), cos(elevation)), alpha)
 			texels[at] = texel
 			at += 1

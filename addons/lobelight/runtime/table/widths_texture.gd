@@ -62,7 +62,8 @@ func _make_isotropic(widths: PackedFloat64Array, lobes: int, tables: Array[Image
 	var columns := PlaneLobes.get_columns(tables[0].get_width())
 	var image := Image.create_empty(columns, lobes * count, false, Image.FORMAT_RGBAH)
 	for level in count:
-		var table := PlaneLobes.convert(tables[level], lobes, widths[level])
+		var last := LobeTable.MAX_VIEW_ANGLE
+		var table := PlaneLobes.convert(tables[level], lobes, widths[level], last)
 		for lobe in lobes:
 			var row := Rect2i(0, lobe, columns, 1)
 			image.blit_rect(table, row, Vector2i(0, lobe * count + level))
