@@ -2,7 +2,7 @@
 extends RefCounted
 ## All tables of a [LobeTableSet] as one texture, for widths that vary from pixel to pixel.
 ##
-## Isotropic tables are a 2D texture: a lobe has one row for each width, so that the sampler mixes
+## Isotropic tables are a 2D texture: a lobe has rows for each width, so that the sampler mixes
 ## two widths as it mixes two views. Anisotropic ones are the layers of a 3D texture, sorted by how
 ## many levels the widths are apart and then by the narrower one: the sampler mixes two tables whose
 ## widths are equally far apart, and the shader mixes two of these mixtures.
@@ -12,6 +12,10 @@ extends RefCounted
 const TOLERANCE := 1e-3
 ## The layers that 3D textures have on every device (OpenGL ES 3.0, table 6.28; Vulkan 1.0, 31.1).
 const MAX_LAYERS := 256
+
+# Of isotropic tables, from one width to the next: between rows the sampler mixes what the shader
+# takes, which is not quite what tables mix.
+const _ROWS_PER_WIDTH := 3
 
 const PlaneLobes := preload("plane_lobes.gd")
 
@@ -58,18 +62,41 @@ static func find_problem(widths: PackedFloat64Array, isotropic: bool) -> String:
 
 
 func _make_isotropic(widths: PackedFloat64Array, lobes: int, tables: Array[Image]) -> void:
-	var count := tables.size()
+	var last := tables.size() - 1
+	var count := last * _ROWS_PER_WIDTH + 1
 	var columns := PlaneLobes.get_columns(tables[0].get_width())
 	var image := Image.create_empty(columns, lobes * count, false, Image.FORMAT_RGBAH)
-	for level in count:
-		var last := LobeTable.MAX_VIEW_ANGLE
-		var table := PlaneLobes.convert(tables[level], lobes, widths[level], last)
+	for place in count:
+		@warning_ignore("integer_division")
+		var low := mini(place / _ROWS_PER_WIDTH, last - 1)
+		var way := float(place - low * _ROWS_PER_WIDTH) / _ROWS_PER_WIDTH
+		var table := PlaneLobes.convert(
+			_mix(tables[low], tables[low + 1], way),
+			lobes,
+			widths[low] * pow(widths[low + 1] / widths[low], way),
+			LobeTable.MAX_VIEW_ANGLE
+		)
 		for lobe in lobes:
 			var row := Rect2i(0, lobe, columns, 1)
-			image.blit_rect(table, row, Vector2i(0, lobe * count + level))
+			image.blit_rect(table, row, Vector2i(0, lobe * count + place))
 	texture = ImageTexture.create_from_image(image)
 	var rows := 1.0 / (lobes * count)
-	lookup = _get_columns(columns) + Vector4(0.0, 0.0, rows, 0.5 * rows)
+	lookup = _get_columns(columns) + Vector4(0.0, 0.0, _ROWS_PER_WIDTH * rows, 0.5 * rows)
+
+
+static func _mix(first: Image, second: Image, way: float) -> Image:
+	if way <= 0.0 or way >= 1.0:
+		return first if way <= 0.0 else second
+	var parts: Array[PackedVector4Array] = []
+	for image: Image in [first, second]:
+		var floats := image.duplicate() as Image
+		floats.convert(Image.FORMAT_RGBAF)
+		parts.append(floats.get_data().to_vector4_array())
+	for i in parts[0].size():
+		parts[0][i] = parts[0][i].lerp(parts[1][i], way)
+	return Image.create_from_data(
+		first.get_width(), first.get_height(), false, Image.FORMAT_RGBAF, parts[0].to_byte_array()
+	)
 
 
 func _make_anisotropic(azimuths: int, tables: Array[Image]) -> void:
