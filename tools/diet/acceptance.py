@@ -31,7 +31,8 @@ import instructions  # noqa: E402
 # The isotropic scene, by a light that was baked of its panorama.
 BAKED = "baked"
 LIGHT = f"tests/diet/scenes/{BAKED}_light.res"
-LIGHT_SIZE = 64
+# Of the panorama, in texels around.
+LIGHT_WIDTH = 2048
 # The scenes, as the report names them.
 SCENES = {
     "empty": "nothing of Lobelight",
@@ -56,6 +57,7 @@ START = '[gd_scene format=3]\n\n[node name="Start" type="Node"]\n'
 LEAST_PSNR = 45.0
 # Of the scene with a baked light, without tables.
 MOST_RUN_TIME = 60 * 1024
+MOST_LIGHT = 3_000_000
 # Of the isotropic scene.
 LEAST_SHARE_GONE = 0.8
 SIDE = 128
@@ -190,7 +192,7 @@ def make_project(project):
     add(CHOSEN, CHOSEN_FILES.format(scene="isotropic"), "")
     (project / "export_presets.cfg").write_text("\n".join(presets), encoding="utf-8")
     run_engine("--headless", "--path", project, "--import")
-    arguments = ["res://tests/data/forest.exr", f"res://{LIGHT}", LIGHT_SIZE]
+    arguments = ["res://tests/data/forest.exr", f"res://{LIGHT}", LIGHT_WIDTH]
     run_engine("--headless", "--path", project, "--script", "res://bake_light.gd", "--", *arguments)
 
 
@@ -357,7 +359,7 @@ def check_targets(checks, targets):
             checks.expect(f"{name}: {renderer}, {decibels} dB from all lobes", decibels >= target)
 
 
-def check_baked(checks, row):
+def check_baked(checks, row, pack):
     """Where all light is baked, nothing that draws light goes along."""
     sizes = row["after_by_folder"]
     run_time = sum(size for folder, size in sizes.items() if folder != "tables")
@@ -365,6 +367,8 @@ def check_baked(checks, row):
     kept = [entry["path"].split("/")[-2] for entry in row["report"]["files"] if entry["after"] > 0]
     checks.expect("baked: nothing that draws light", not set(kept) & set(LIVE_PARTS))
     kept = [entry["path"] for entry in row["report"]["files"] if entry["after"] > 0]
+    light = sum(size for name, size, _start in read_files(pack) if name == LIGHT)
+    checks.expect(f"baked: {light} bytes of light, {MOST_LIGHT} at most", 0 < light <= MOST_LIGHT)
     checks.expect("baked: no shader that filters", not any(path.endswith(".gdshader") for path in kept))
 
 
@@ -380,7 +384,6 @@ def check(checks, rows, pictures):
         is_frozen = name not in UNFROZEN
         frozen = bool(row["frozen"]) and all(row["frozen"])
         checks.expect(f"{name}: materials are {'' if is_frozen else 'not '}frozen", frozen == is_frozen)
-    check_baked(checks, by_scene[BAKED])
     gone = by_scene["isotropic"]["gone"]
     checks.expect(f"isotropic: {gone:.1%} of the bytes are gone, {LEAST_SHARE_GONE:.0%} wanted", gone >= LEAST_SHARE_GONE)
     for name in PLAIN:
@@ -459,6 +462,7 @@ def main():
         print(f"diet: {error}", file=sys.stderr)
         return 1
     check(checks, rows, pictures)
+    check_baked(checks, next(row for row in rows if row["scene"] == BAKED), work / BAKED / "game.pck")
     check_targets(checks, targets)
     results = json.dumps({"scenes": rows, "targets": targets}, indent=1) + "\n"
     if options.json:
