@@ -79,7 +79,8 @@ enum UpdateMode {
 	## fills, counts as changed in every frame. Nothing tells of shaders that move by themselves
 	## (TIME) or with the camera (POSITION), of global uniforms, of textures that are
 	## filled without their signal [signal Resource.changed], and of what happens in a captured scene:
-	## take another mode, or call [method rebuild]. Moving the node counts, where it captures.
+	## take another mode, or call [method rebuild]. Moving the node counts, where it captures. What has
+	## not changed for 120 frames is looked at in every fourth frame.
 	WHEN_CHANGED,
 	## In every frame.
 	EVERY_FRAME,

@@ -14,6 +14,9 @@ const PyramidChain := preload("../pyramid/pyramid_chain.gd")
 
 # Frames without an update after which the memory for drawing is given back.
 const _IDLE_FRAMES := 120
+# A source in which nothing has changed for so many frames is looked at in every fourth only.
+const _STILL_FRAMES := 120
+const _STILL_STEP := 4
 # Captures after that of a change, each of which brings one more reflection between materials.
 const _ECHOES := 3
 # Milliseconds in which a scene may still get the sky that its light lacks.
@@ -50,6 +53,8 @@ var _drawn := false
 # When the next one may begin by itself, in milliseconds.
 var _next_time := 0
 var _idle := 0
+# Frames since the source was last found changed.
+var _still := 0
 var _waits: Array[FrameWait] = []
 var _is_watching := false
 # Captures that are still to follow, and whether materials have shown no light but the node's
@@ -254,7 +259,11 @@ func _start_if_due() -> void:
 			return
 		if mode == LightSettings.UpdateMode.ONCE:
 			return
+		_still += 1
+		if _still > _STILL_FRAMES and _still % _STILL_STEP > 0 and not _is_told_of_change:
+			return
 		if _kind == EnvironmentSource.Kind.SKY_PANORAMA and place():
+			_still = 0
 			LightRegistry.update_placement(light, true)
 		if Time.get_ticks_msec() < _next_time:
 			return
@@ -276,6 +285,7 @@ func _find_pace() -> PyramidChain.Pace:
 # Starts an update from its first slice, instead of one under way.
 func _begin(pace: PyramidChain.Pace) -> bool:
 	_stale = false
+	_still = 0
 	_is_told_of_change = false
 	_next_time = Time.get_ticks_msec() + roundi(1000.0 * _settings.update_interval)
 	_running = false
