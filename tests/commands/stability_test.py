@@ -47,7 +47,7 @@ CHANGES = {
     "pyramid_views.gdshader": ("vec3(2.4)", "vec3(2.41)", ["views_1"]),
     "round_kernel.gdshaderinc": ("RIM_VARIANCE = 0.104", "RIM_VARIANCE = 0.124", ["pyramid_disc_16_32"]),
     "sheen.gdshaderinc": ("over.kept = 1.0 -", "over.kept = 1.003 -", ["sheen_levels"]),
-    "specular.gdshaderinc": ("lobe.grazing_weight * lit", "lobe.grazing_weight * 1.01 * lit", ["reflect_3_long_levels"]),
+    "specular.gdshaderinc": ("reflection.albedo, 0.05) - 1.0", "reflection.albedo, 0.05) - 0.999", ["reflect_3_long_levels"]),
     "triplanar.gdshaderinc": ("share.y + share.z", "share.y + 0.999 * share.z", ["planes"]),
     "widths.gdshaderinc": ("1.0 - 0.9 * anisotropy", "1.0 - 0.91 * anisotropy", ["widths_9_anisotropic"]),
 }

@@ -68,13 +68,13 @@ def lobe(texel, half_vectors, o):
 
 def plane_lobe(texel, o, tangent):
     """(mean, variance, weight, weight times Schlick's part) of an isotropic table's texel, about the normal (0, 0, 1): its
-    first two numbers are along the mirror direction of the view o and across it, and as long as a standard deviation."""
+    first two numbers are along the mirror direction of the view o and across it, and as long as 256 standard deviations."""
     sine, up = o[0], o[2]
     normal = (mpf(0), mpf(0), mpf(1))
     mirrored = minus(scaled(normal, up), scaled(tangent, sine))
     across = plus(scaled(tangent, up), scaled(normal, sine))
     mean = plus(scaled(mirrored, mpf(texel[0])), scaled(across, mpf(texel[1])))
-    return normalised(mean), mpf(texel[0]) ** 2 + mpf(texel[1]) ** 2, mpf(texel[2]), mpf(texel[3])
+    return normalised(mean), (mpf(texel[0]) ** 2 + mpf(texel[1]) ** 2) / 65536, mpf(texel[2]), mpf(texel[3])
 
 
 # Frames

@@ -263,7 +263,7 @@ def lobe_of(texel, half_vectors, toward, off, half, alpha, alpha_error, view_bou
 def plane_lobe_of(texel, o, tangent, off, half, view_bound, skew, tint):
     """A lobe of an isotropic table, whose texels lie in the plane of incidence."""
     mean, variance, weight, grazing = shader.plane_lobe(texel, o, tangent)
-    size = math.sqrt(float(variance))
+    size = 256 * math.sqrt(float(variance))
     bounds = []
     for error in (off, half):
         first = not bounds
@@ -315,7 +315,7 @@ def plane_texels(texels, alpha):
     x = alpha * texels[..., 0]
     length = np.sqrt(1 + x * x)
     cosine = np.maximum((up + sine * x) / length, 1e-4)
-    size = np.sqrt(cosine * 2.0 ** -texels[..., 2]) / length**2
+    size = 256 * np.sqrt(cosine * 2.0 ** -texels[..., 2]) / length**2
     grazing = texels[..., 3] * np.maximum(1 - cosine, 0) ** 5
     return np.stack([(1 - x * x) * size, 2 * x * size, texels[..., 3], grazing], axis=-1)
 

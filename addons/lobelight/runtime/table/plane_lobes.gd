@@ -4,12 +4,14 @@ extends RefCounted
 ##
 ## They lie in the plane of incidence and only the view moves them, so that directions, variances
 ## and Fresnel's factor are computed here, once. A texel is (d · r, d · q, weight, weight ·
-## (1 − o · h)⁵), d being the lobe's mean times the square root of its variance, r the mirror
+## (1 − o · h)⁵), d being the lobe's mean times 256 times the square root of its variance, r the mirror
 ## direction of the view o, and q the direction across r in the plane, on the view's side
 ## ([code]lobelight_plane_lobe[/code] in [code]shaders/lobe_table.gdshaderinc[/code]).
 
 # As the shader takes half-vectors that are turned away from the view.
 const _LEAST_COSINE := 1e-4
+# Standard deviations are multiplied by it: GPUs may take half floats below 6e-5 for zero.
+const _SCALE := 256.0
 # Views are at least as many steps apart: what is converted is to be mixed over short ways only.
 const _LEAST_STEPS := 30.0
 
@@ -64,7 +66,7 @@ static func _convert_texel(texel: Vector4, o: Vector2, alpha: float) -> Vector4:
 	var up := size - o.y
 	var beside := size * y * size * y
 	var variance := cosine * pow(2.0, -texel.z) + 0.5 * beside
-	var scale := sqrt(variance / maxf(1.0 - beside, 1e-4))
+	var scale := _SCALE * sqrt(variance / maxf(1.0 - beside, 1e-4))
 	var grazing := texel.w * pow(maxf(1.0 - cosine, 0.0), 5.0)
 	return Vector4(
 		(o.y * up - o.x * along) * scale, (o.y * along + o.x * up) * scale, texel.w, grazing
