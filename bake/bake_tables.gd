@@ -13,15 +13,18 @@ const OPTIONS: PackedStringArray = [
 	"json",
 ]
 const FOLDER := "res://addons/lobelight/tables"
-const SHIPPED: PackedStringArray = ["ward", "ggx", "charlie"]
-const ALL: PackedStringArray = ["ward", "ward_bounded", "ggx", "charlie"]
+const SHIPPED: PackedStringArray = ["ward", "ggx", "charlie", "coat"]
+const ALL: PackedStringArray = ["ward", "ward_bounded", "ggx", "charlie", "coat"]
 const FIRST_WIDTH := 0.005
 const LAST_WIDTH := 1.0
-# Sheen is smooth and has one width: a few lobes and tables do.
-const SHEEN := "charlie"
-const SHEEN_FIRST_WIDTH := 0.04
-const SHEEN_WIDTHS := 10
-const SHEEN_LOBES := 4
+## Lobes of layers over a material. Each layer has one width, and is smooth or reflects little: a few
+## lobes and tables do. By the sets' names: [BRDF, first width, last width, how many].
+const LAYERS: Dictionary[String, Array] = {
+	"charlie": ["charlie", 0.04, LAST_WIDTH, 10],
+	# The widths of Godot's clear coats, as far as pyramids tell them apart.
+	"coat": ["ggx", FIRST_WIDTH, 0.1, 13],
+}
+const LAYER_LOBES := 4
 ## Of how many tables a check fits one again.
 const CHECK_STRIDE := 12
 
@@ -67,22 +70,23 @@ func _brdfs() -> PackedStringArray:
 	return [brdf]
 
 
-func _recipe(brdf: String) -> Dictionary:
-	var is_sheen := brdf == SHEEN
-	var first := SHEEN_FIRST_WIDTH if is_sheen else FIRST_WIDTH
-	var usual_count := SHEEN_WIDTHS if is_sheen else 21
-	var usual_views := PackedFloat64Array([16, 1] if is_sheen else [16, 8])
-	var count := _arguments.integer("widths", usual_count, 2, LobeTableSet.MAX_WIDTHS)
+func _recipe(name: String) -> Dictionary:
+	var is_layer := LAYERS.has(name)
+	var usual: Array = LAYERS.get(name, [name, FIRST_WIDTH, LAST_WIDTH, 21])
+	var first: float = usual[1]
+	var last: float = usual[2]
+	var usual_views := PackedFloat64Array([16, 1] if is_layer else [16, 8])
+	var count := _arguments.integer("widths", usual[3], 2, LobeTableSet.MAX_WIDTHS)
 	var widths := []
 	for i in count:
-		var width := first * pow(LAST_WIDTH / first, i / (count - 1.0))
+		var width := first * pow(last / first, i / (count - 1.0))
 		# A few digits, so that the last bit of an engine's pow() does not matter.
 		widths.append(String.num(width, 7).to_float())
 	return {
-		"brdf": brdf,
+		"brdf": usual[0],
 		"widths": widths,
 		"lobes":
-		_arguments.integer("lobes", SHEEN_LOBES if is_sheen else 8, 1, LobeTable.MAX_LOBES),
+		_arguments.integer("lobes", LAYER_LOBES if is_layer else 8, 1, LobeTable.MAX_LOBES),
 		"views": Array(_arguments.numbers("views", 2, usual_views)),
 		"seed": _arguments.integer("seed", 0, 0, (1 << 31) - 1),
 		"threads": _arguments.integer("threads", 0, 0, 1024),

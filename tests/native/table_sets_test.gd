@@ -6,6 +6,7 @@ const SHIPPED := [
 	["ward", "res://addons/lobelight/tables/ward_8.res"],
 	["ggx", "res://addons/lobelight/tables/ggx_8.res"],
 	["charlie", "res://addons/lobelight/tables/charlie_4.res"],
+	["ggx", "res://addons/lobelight/tables/coat_4.res"],
 ]
 
 ## A recipe's value that is refused, and what the sentence about it says.

@@ -4,6 +4,7 @@ extends GdUnitTestSuite
 
 const Kit := preload("support/render_kit.gd")
 const Oracle := preload("support/material_oracle.gd")
+const TableChoice := preload("res://addons/lobelight/runtime/material/table_choice.gd")
 const SIDE := 48
 const MIDDLE := 24
 
@@ -54,7 +55,7 @@ func test_a_coat_takes_what_it_reflects() -> void:
 	material.metallic = 0.0
 	material.metallic_specular = 0.0
 	var image: Image = await _view.capture()
-	var table := _tables.table_at(Vector2(0.1, 0.1))
+	var table := (load(TableChoice.COAT_SET) as LobeTableSet).table_at(Vector2(0.1, 0.1))
 	for x: int in [24, 34, 42]:
 		var view := Vector3(0.0, 0.0, 1.0)
 		var local := Kit.sphere_frame(Kit.sphere_normal(x, 20, SIDE)).transposed() * view

@@ -4,6 +4,7 @@ extends GdUnitTestSuite
 const Kit := preload("support/render_kit.gd")
 const Occluder := preload("support/occluder.gd")
 const Oracle := preload("support/material_oracle.gd")
+const TableChoice := preload("res://addons/lobelight/runtime/material/table_choice.gd")
 const SIDE := 72
 # Surfaces in a row, and rows.
 const ACROSS := 9
@@ -218,7 +219,7 @@ func test_a_coat_is_occluded_about_the_mesh_normal() -> void:
 	# It does not bend the coat.
 	quad.material.normal_enabled = true
 	quad.material.normal_texture = _direction(Vector3(0.5, 0.3, 0.7).normalized())
-	var table := _tables.table_at(Vector2(0.1, 0.1))
+	var table := (load(TableChoice.COAT_SET) as LobeTableSet).table_at(Vector2(0.1, 0.1))
 	var visible := func(mean: Vector3, kappa: float) -> float:
 		var slope := sqrt(1.0 / kappa + 0.08)
 		return 0.3 / (0.3 + 0.7 * exp((2.0 / 3.0 - mean.z) / slope))

@@ -8,7 +8,7 @@ const FEATURES: PackedStringArray = [
 	"ALPHA_HASH",
 	"AO",
 	"AO_TEXTURE",
-	"COAT_LOBES",
+	"COAT",
 	"DEEP_PARALLAX",
 	"DETAIL",
 	"DETAIL_ALBEDO",
@@ -269,7 +269,7 @@ func test_fetches_are_counted() -> void:
 	material.metallic = 0.0
 	material.clearcoat = 1.0
 	material.clearcoat_enabled = true
-	assert_dict(material.get_fetches()).is_equal({"environment": 22, "table": 24, "samplers": 3})
+	assert_dict(material.get_fetches()).is_equal({"environment": 18, "table": 20, "samplers": 3})
 
 
 func test_questions_leave_what_is_drawn() -> void:

@@ -75,7 +75,7 @@ class Surface:
         names += ["LOBELIGHT_EMISSION"] * (self.emitted is not None)
         names += ["LOBELIGHT_TURNED"] * (self.turned is not None)
         if self.coat:
-            names.append(f"LOBELIGHT_COAT_LOBES {self.coat.lobes}")
+            names.append("LOBELIGHT_COAT")
         names += dict.fromkeys(f"LOBELIGHT_{define}" for name in self.maps for define in MAPS[name][2])
         if self.maps:
             names += ["LOBELIGHT_TEXTURED", "LOBELIGHT_SAMPLING filter_nearest, repeat_disable"]

@@ -114,6 +114,7 @@ func _export_file(path: String, type: String, _features: PackedStringArray) -> v
 	if path == TABLE_CHOICE:
 		# It loads sets by their paths, which an export of chosen scenes does not know of.
 		_export_table(TableChoice.DEFAULT_SET, false)
+		_export_table(TableChoice.COAT_SET, false)
 		_export_table(TableChoice.SHEEN_SET, false)
 	elif path.begins_with(Reach.TABLES) and _export_table(path, true):
 		skip()

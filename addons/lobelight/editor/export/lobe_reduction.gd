@@ -79,7 +79,7 @@ func reduce(file: String, material: LobeMaterial3D) -> bool:
 	var tables_of := _get_set(material)
 	var problem := "" if _is_fixed(material) else why_none
 	if problem.is_empty() and tables_of == null:
-		problem = "a table or a texture of its own, a clear coat or a script says what is drawn"
+		problem = "a table or a texture of its own or a script says what is drawn"
 	if problem.is_empty() and not can_edit(home):
 		problem = "imported files are exported as they are"
 	if problem:
@@ -175,7 +175,7 @@ static func can_edit(file: String) -> bool:
 static func _get_set(material: LobeMaterial3D) -> LobeTableSet:
 	if material.get_script() != LobeMaterial3D or material.table != null:
 		return null
-	if material.is_coated() or material.varies():
+	if material.varies():
 		return null
 	var found := material.table_set
 	if found == null and ResourceLoader.exists(TableChoice.DEFAULT_SET):

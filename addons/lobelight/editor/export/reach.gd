@@ -216,6 +216,7 @@ func _conclude() -> void:
 		own_tables.append([table.users[0], table.table])
 	for file in _made_by_script:
 		_include(file, LobeMaterial3D.new())
+	_include_coats()
 	_include_sheens()
 	for path in _named_sets:
 		var named := _get_set(path)
@@ -226,6 +227,28 @@ func _conclude() -> void:
 		reach.is_filled = _declared
 		if not _declared and not _unknown.is_empty() and reach.whole_because.is_empty():
 			reach.whole_because = _unknown[0]
+
+
+func _include_coats() -> void:
+	if not features.reached.has(Features.COAT):
+		return
+	var coats := _get_set(TableChoice.COAT_SET)
+	for entry in _materials:
+		_include_coat(coats, entry[0], entry[1])
+	for file in _made_by_script:
+		_include_coat(coats, file, LobeMaterial3D.new())
+	if coats.surfaces.is_empty():
+		coats.whole_because = "a script may ask for any"
+		coats.add_user(features.reached[Features.COAT])
+
+
+func _include_coat(coats: SetReach, file: String, material: LobeMaterial3D) -> void:
+	var own := material.clearcoat if material.clearcoat_enabled else 0.0
+	if _all_of("clearcoat", own).max() <= 0.0:
+		return
+	coats.add_user(file)
+	for roughness in _all_of("clearcoat_roughness", material.clearcoat_roughness):
+		coats.add_surface(Vector2.ONE * Widths.from_coat_roughness(roughness))
 
 
 func _include_sheens() -> void:
@@ -249,30 +272,23 @@ func _get_set(path: String) -> SetReach:
 
 
 func _include(file: String, material: LobeMaterial3D) -> void:
-	var coats := _all_of("clearcoat", material.clearcoat if material.clearcoat_enabled else 0.0)
-	var has_coat: bool = coats.any(func(coat: float) -> bool: return coat > 0.0)
 	if material.table != null:
 		own_tables.append([file, material.table])
-		if not has_coat:
-			return
+		return
 	var path := TableChoice.DEFAULT_SET
 	if material.table_set != null:
 		path = material.table_set.resource_path
 	var reach := _get_set(path)
 	reach.add_user(file)
-	if material.table == null:
-		var anisotropies := _all_of("anisotropy", material.anisotropy)
-		if material.varies():
-			if anisotropies.max() == 0.0 and anisotropies.min() == 0.0:
-				reach.isotropic_because = "%s has a texture of widths" % file
-			else:
-				reach.whole_because = "%s has a texture of widths" % file
-		for roughness in _all_of("roughness", material.roughness):
-			for anisotropy in anisotropies:
-				reach.add_surface(Widths.from_roughness(roughness, anisotropy))
-	if has_coat:
-		for roughness in _all_of("clearcoat_roughness", material.clearcoat_roughness):
-			reach.add_surface(Vector2.ONE * Widths.from_coat_roughness(roughness))
+	var anisotropies := _all_of("anisotropy", material.anisotropy)
+	if material.varies():
+		if anisotropies.max() == 0.0 and anisotropies.min() == 0.0:
+			reach.isotropic_because = "%s has a texture of widths" % file
+		else:
+			reach.whole_because = "%s has a texture of widths" % file
+	for roughness in _all_of("roughness", material.roughness):
+		for anisotropy in anisotropies:
+			reach.add_surface(Widths.from_roughness(roughness, anisotropy))
 
 
 # A material's own value and those that scripts may give it.

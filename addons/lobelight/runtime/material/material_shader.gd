@@ -177,7 +177,7 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 	else:
 		defines.append("LAMPS_ONLY")
 	if choice.coat != null:
-		defines.append("COAT_LOBES %d" % choice.coat.lobe_count)
+		defines.append("COAT")
 	if choice.sheen != null:
 		defines.append("SHEEN")
 	if surface.emits():

@@ -11,6 +11,7 @@ const OnDemand := preload("../on_demand.gd")
 const Widths := preload("../table/widths.gd")
 const WidthsTexture := preload("../table/widths_texture.gd")
 const DEFAULT_SET := "res://addons/lobelight/tables/ggx_8.res"
+const COAT_SET := "res://addons/lobelight/tables/coat_4.res"
 const SHEEN_SET := "res://addons/lobelight/tables/charlie_4.res"
 
 const _MIXER := "res://addons/lobelight/runtime/mixing/table_mixer.gd"
@@ -83,12 +84,11 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 		_mixed = null
 	_can_follow = is_from_set and table == null and not _has_turned
 	coat = null
-	if surface.is_coated() and tables != null:
-		var width := Widths.from_coat_roughness(surface.clearcoat_roughness)
-		coat = tables.shared_table_at(Vector2(width, width))
+	if surface.is_coated():
+		coat = _get_layer(COAT_SET, Widths.from_coat_roughness(surface.clearcoat_roughness))
 	sheen = null
 	if surface.has_sheen():
-		_choose_sheen(surface)
+		sheen = _get_layer(SHEEN_SET, surface.sheen_roughness * surface.sheen_roughness)
 
 
 ## Hands on other widths at once, where they take no other shader; otherwise returns false, and the
@@ -160,9 +160,9 @@ func has_second_texels() -> bool:
 ## A number that is another one where the shader's code is, as far as it goes by the lobes.
 func get_shape() -> int:
 	var shape := lobe_count
-	shape = 64 * shape + (coat.lobe_count if coat != null else 0)
-	shape = 64 * shape + (sheen.lobe_count if sheen != null else 0)
 	var facts: Array[bool] = [
+		coat != null,
+		sheen != null,
 		is_isotropic,
 		is_from_set,
 		widths_texture != null,
@@ -224,13 +224,6 @@ func _mix() -> void:
 		_mixed.draw()
 
 
-func _choose_sheen(surface: LobeBaseMaterial3D) -> void:
-	var tables := _get_ready_set(SHEEN_SET)
-	if tables != null:
-		var width := surface.sheen_roughness * surface.sheen_roughness
-		sheen = tables.shared_table_at(Vector2.ONE * maxf(width, tables.widths[0]))
-
-
 # A material's own table, or one that stands in for it.
 func _choose_table(surface: LobeBaseMaterial3D) -> void:
 	if surface.table != null and surface.table.get_problem().is_empty():
@@ -247,14 +240,21 @@ func _choose_table(surface: LobeBaseMaterial3D) -> void:
 	anisotropy = 0.0 if is_isotropic else godots.y
 
 
-## The set that a material's lobes, or its coat's, come from; null if it has a table of its own and
-## no coat, or there is none.
+## The set that a material's lobes come from; null if it has a table of its own, or there is none.
 static func get_set(surface: LobeBaseMaterial3D) -> LobeTableSet:
 	if surface.table_set != null:
 		return surface.table_set if surface.table_set.get_problem().is_empty() else null
-	if surface.table != null and not surface.is_coated():
+	if surface.table != null:
 		return null
 	return _get_ready_set(DEFAULT_SET)
+
+
+# Null if there is none.
+static func _get_layer(path: String, width: float) -> LobeTable:
+	var tables := _get_ready_set(path)
+	if tables == null:
+		return null
+	return tables.shared_table_at(Vector2.ONE * maxf(width, tables.widths[0]))
 
 
 # Null if there is none.
