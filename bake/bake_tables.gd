@@ -17,8 +17,8 @@ const SHIPPED: PackedStringArray = ["ward", "ggx", "charlie", "coat"]
 const ALL: PackedStringArray = ["ward", "ward_bounded", "ggx", "charlie", "coat"]
 const FIRST_WIDTH := 0.005
 const LAST_WIDTH := 1.0
-## Lobes of layers over a material. Each layer has one width, and is smooth or reflects little: a few
-## lobes and tables do. By the sets' names: [BRDF, first width, last width, how many].
+## Lobes of layers over a material. Each layer has one width, and is smooth or reflects little: few
+## lobes and tables do. By the sets' names: [code][BRDF, first width, last width, count][/code].
 const LAYERS: Dictionary[String, Array] = {
 	"charlie": ["charlie", 0.04, LAST_WIDTH, 10],
 	# The widths of Godot's clear coats, as far as pyramids tell them apart.
