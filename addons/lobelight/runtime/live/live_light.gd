@@ -257,10 +257,9 @@ func _start_if_due() -> void:
 			if _begin(PyramidChain.Pace.FACE_BY_FACE):
 				_echoes = echoes
 			return
-		if mode == LightSettings.UpdateMode.ONCE:
-			return
 		_still += 1
-		if _still > _STILL_FRAMES and _still % _STILL_STEP > 0 and not _is_told_of_change:
+		var rests := _still > _STILL_FRAMES and _still % _STILL_STEP > 0 and not _is_told_of_change
+		if mode == LightSettings.UpdateMode.ONCE or rests:
 			return
 		if _kind == EnvironmentSource.Kind.SKY_PANORAMA and place():
 			_still = 0
