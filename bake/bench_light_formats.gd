@@ -3,6 +3,7 @@ extends SceneTree
 ## tools/bench/light-formats.sh.
 
 const LightFormats := preload("res://addons/lobelight/editor/light/light_formats.gd")
+const LightFile := preload("res://addons/lobelight/editor/light/light_file.gd")
 const PanoramaFilter := preload("res://addons/lobelight/editor/light/panorama_filter.gd")
 const OPTIONS: PackedStringArray = ["env", "alphas", "formats", "lobes", "size", "json"]
 const FORMATS: Dictionary[String, LightFormats.Format] = {
@@ -99,7 +100,7 @@ func _measure(
 				"alpha": alpha,
 				"lobes": lobes,
 				"format": formats[i],
-				"bytes": _count_bytes(lights[i]),
+				"bytes": LightFile.count_bytes(lights[i]),
 				"psnr": _psnr(drawn, exact, exact, size),
 				"psnr_to_first": _psnr(drawn, first, exact, size),
 			}
@@ -130,9 +131,7 @@ func _make_light(image: Image, format: String) -> LobeLight:
 		var filter := NativeLibrary.create(&"LobeLightFilter")
 		_lights[size] = PanoramaFilter.make_light(request, filter.call(&"filter", request))
 	var light: LobeLight = _lights[size].at_another_place()
-	var converted := LightFormats.convert_faces(light.faces, FORMATS[parts[0]])
-	_arguments.fail_if(converted.get("error", ""))
-	light.faces = converted.get("faces", light.faces)
+	_arguments.fail_if(LightFormats.convert_light(light, FORMATS[parts[0]]))
 	return light
 
 
@@ -147,13 +146,6 @@ func _draw(viewport: LinearViewport, table: LobeTable, light: LobeLight) -> Pack
 	sphere.free()
 	picture.convert(Image.FORMAT_RGBF)
 	return picture.get_data().to_float32_array()
-
-
-static func _count_bytes(light: LobeLight) -> int:
-	var bytes := 0
-	for face in light.faces:
-		bytes += face.get_data().size()
-	return bytes
 
 
 # As tools/compare/metrics.py: exposure by the median of `exact`, a power of 1 / 2.2.

@@ -15,7 +15,7 @@ func _initialize() -> void:
 	var request := PanoramaFilter.make_request(panorama)
 	var filter: Object = ClassDB.instantiate(&"LobeLightFilter")
 	var light := PanoramaFilter.make_light(request, filter.call(&"filter", request))
-	light.faces = LightFormats.convert_faces(light.faces, LightFormats.Format.BPTC)["faces"]
+	LightFormats.convert_light(light, LightFormats.Format.BPTC)
 	light.seal()
 	ResourceSaver.save(light, arguments[1], ResourceSaver.FLAG_COMPRESS)
 	quit()

@@ -223,6 +223,7 @@ func make(material: LobeMaterial3D) -> FrozenMaterial:
 	frozen.shader = _get_shader(code)
 	var choice := TableChoice.new()
 	choice.choose(material)
+	frozen.width = choice.get_narrowest()
 	var give := MaterialParameters.apply.bind(material, choice)
 	var given := GivenParameters.hear(material.get_rid(), give)
 	var textures := _find_textures(material, choice)

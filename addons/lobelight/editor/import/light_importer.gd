@@ -53,7 +53,7 @@ func _get_import_options(path: String, _preset: int) -> Array[Dictionary]:
 		},
 		{
 			"name": "format",
-			"default_value": LightFormats.Format.SHARED_EXPONENT,
+			"default_value": LightFormats.Format.BPTC,
 			"property_hint": PROPERTY_HINT_ENUM,
 			"hint_string": "Half Floats,Shared Exponents,Blocks for Desktops,Blocks for Phones",
 		},
@@ -134,8 +134,5 @@ static func filter(read: Dictionary, options: Dictionary, progress: Progress) ->
 		var error: String = task.call(&"get_error")
 		return error if error else "The import was cancelled."
 	var light: LobeLight = PanoramaFilter.make_light(request, result)
-	var converted := LightFormats.convert_faces(light.faces, options["format"] as int)
-	if converted.has("error"):
-		return converted["error"]
-	light.faces = converted["faces"]
-	return light
+	var problem := LightFormats.convert_light(light, options["format"] as int)
+	return problem if problem else light

@@ -178,13 +178,10 @@ func _restore(light: LobeLight, path: String) -> void:
 		push_error("Lobelight: " + problem)
 
 
-# Half the bytes of half floats, and every device shows them.
+# An eighth of the bytes of half floats, and a little more.
 static func _pack(light: LobeLight) -> Variant:
-	var converted := LightFormats.convert_faces(light.faces, LightFormats.Format.SHARED_EXPONENT)
-	if converted.has("error"):
-		return converted["error"]
-	light.faces = converted["faces"]
-	return light
+	var problem := LightFormats.convert_light(light, LightFormats.Format.BPTC)
+	return problem if problem else light
 
 
 func _capture(node: Node3D) -> Variant:

@@ -80,7 +80,7 @@ static func count_bytes(light: LobeLight) -> int:
 	var bytes := 0
 	for face in light.faces:
 		bytes += face.get_data_size()
-	return bytes
+	return bytes + (count_bytes(light.coarse) if light.coarse != null else 0)
 
 
 ## The probes and environments among a node and all below it.

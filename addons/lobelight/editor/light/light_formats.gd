@@ -16,6 +16,46 @@ const IMAGE_FORMATS: Dictionary[Format, Image.Format] = {
 }
 # Texels along the side of a block.
 const _BLOCK := 4
+# The level that the coarse part of a light in blocks begins with, and the least side of it.
+const _COARSE_LEVEL := 2
+const _LEAST_COARSE := 16
+
+
+## Puts a light of half floats into another format; why it could not be done, in a sentence, and
+## empty if it was.
+static func convert_light(light: LobeLight, format: Format) -> String:
+	var halves := light.faces
+	var converted := convert_faces(halves, format)
+	if converted.has("error"):
+		return converted["error"]
+	light.faces = converted["faces"]
+	light.coarse = null
+	var is_in_blocks := format == Format.BPTC or format == Format.ASTC
+	if is_in_blocks and light.size >> _COARSE_LEVEL >= _LEAST_COARSE:
+		light.coarse = _make_coarse(light, halves)
+	return ""
+
+
+# Levels 2 and coarser, as a light of their own. Where level 0 of a light blurs by t^2 (b + 1/6), t
+# being the side of its texels (shaders/environment.gdshaderinc), that of this one, whose texels are
+# four times as wide, is to blur by t^2 (b - c + 16 (c + 1/6)): b' = c + (b - c) / 16.
+static func _make_coarse(light: LobeLight, halves: Array[Image]) -> LobeLight:
+	var coarse := LobeLight.new()
+	coarse.size = light.size >> _COARSE_LEVEL
+	coarse.level_variance = light.level_variance
+	var sharper := light.base_variance - light.level_variance
+	coarse.base_variance = light.level_variance + sharper / pow(4.0, _COARSE_LEVEL)
+	coarse.is_even = light.is_even
+	var faces: Array[Image] = []
+	for face in halves:
+		var data := face.get_data().slice(face.get_mipmap_offset(_COARSE_LEVEL))
+		var image := Image.create_from_data(
+			coarse.size, coarse.size, true, Image.FORMAT_RGBAH, data
+		)
+		image.convert(Image.FORMAT_RGBE9995)
+		faces.append(image)
+	coarse.faces = faces
+	return coarse
 
 
 ## Faces of half floats with all their levels in another format: {"faces"} or {"error"}, a sentence.

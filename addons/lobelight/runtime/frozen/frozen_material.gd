@@ -15,6 +15,11 @@ const LightRegistry := preload("../light/light_registry.gd")
 			if given is Texture:
 				given = (given as Texture).get_rid()
 			RenderingServer.material_set_param(_rid, name, given)
+## The narrowest width of its lobes, see [method LobeLight.apply].
+@export_storage var width := 0.0:
+	set(value):
+		width = value
+		LightRegistry.set_width(_rid, width)
 ## As [member LobeMaterial3D.light].
 @export_storage var light: LobeLight:
 	set(value):

@@ -25,6 +25,8 @@ static var _materials: Dictionary[RID, Callable] = {}
 static var _own: Dictionary[RID, LobeLight] = {}
 # For those of them that have a box, where it is, as the shader reads it.
 static var _own_lists: Dictionary[RID, Texture2D] = {}
+# The narrowest width of each one's lobes, where it is known.
+static var _widths: Dictionary[RID, float] = {}
 # By their scenarios, in the order in which they came.
 static var _worlds: Dictionary[RID, LightWorld] = {}
 # Made when the first material comes, dropped with the last one.
@@ -84,6 +86,7 @@ static func add_material(material: RID, other_variant: Callable) -> void:
 static func remove_material(material: RID) -> void:
 	_mutex.lock()
 	_materials.erase(material)
+	_widths.erase(material)
 	_own.erase(material)
 	_own_lists.erase(material)
 	DiffuseSource.forget_material(material)
@@ -91,6 +94,18 @@ static func remove_material(material: RID) -> void:
 		_neutral = null
 		if _worlds.is_empty():
 			_shown = null
+	_mutex.unlock()
+
+
+## Tells of a material how narrow its lobes are at least, see [method LobeLight.apply]; 0 if that is
+## not known.
+static func set_width(material: RID, width: float) -> void:
+	_mutex.lock()
+	if _widths.get(material, 0.0) != width:
+		_widths[material] = width
+		var light: LobeLight = _own.get(material, _shown)
+		if light != null and light.goes_by_width() and _materials.has(material):
+			_apply(material)
 	_mutex.unlock()
 
 
@@ -280,6 +295,7 @@ static func _forget() -> void:
 	_materials.clear()
 	_own.clear()
 	_own_lists.clear()
+	_widths.clear()
 	_worlds.clear()
 	_neutral = null
 	_shown = null
@@ -363,7 +379,8 @@ static func _get_neutral() -> LobeLight:
 static func _apply(material: RID) -> void:
 	if _own.has(material):
 		var own := _own[material]
-		own.apply(material)
+		# From inside a box, lobes may see less of it than they would from its middle.
+		own.apply(material, 0.0 if own.has_box() else _widths.get(material, 0.0))
 		if _has_own_place(own):
 			_own_lists[material] = _placed_script.make_list(own)
 			var list := _own_lists[material].get_rid()
@@ -373,7 +390,7 @@ static func _apply(material: RID) -> void:
 	else:
 		if _shown == null:
 			_shown = _get_neutral()
-		_shown.apply(material)
+		_shown.apply(material, _widths.get(material, 0.0))
 
 
 static func _has_own_place(light: LobeLight) -> bool:

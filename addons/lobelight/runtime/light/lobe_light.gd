@@ -15,6 +15,8 @@ const FORMATS: Array[Image.Format] = [
 	Image.FORMAT_BPTC_RGBFU,
 	Image.FORMAT_ASTC_4x4_HDR,
 ]
+## Narrowest widths of lobes that never need what is finer than [member coarse].
+const COARSE_WIDTH := 0.044
 # A unit vector's largest component is at least this.
 const _LEAST_COMPONENT := 0.57735027
 const _FACES := 6
@@ -54,6 +56,9 @@ const _ROUNDING := 1e-3
 	set(value):
 		base_energy = value
 		energy = value
+## Of faces in blocks: their coarser levels once more, with shared exponents, for materials whose
+## lobes are all wide. Blocks show the contrasts in these levels badly, and the levels take little.
+@export_storage var coarse: LobeLight
 ## What [method find_checksum] found when the light was saved; empty if nothing is to be checked.
 @export_storage var checksum := ""
 
@@ -117,13 +122,17 @@ func get_problem() -> String:
 		return ""
 	if faces.size() != _FACES:
 		return "The light has %d faces, not 6: bake it again." % faces.size()
-	var odd := _find_odd_number()
-	return odd if odd else _find_damage()
+	var problem := _find_odd_number()
+	if problem.is_empty():
+		problem = _find_damage()
+	return coarse.get_problem() if problem.is_empty() and coarse != null else problem
 
 
 ## Makes the light ready to be saved: with the checksum of what it has now.
 func seal() -> void:
 	version = _VERSION
+	if coarse != null:
+		coarse.seal()
 	checksum = find_checksum()
 	_is_checked = true
 
@@ -192,6 +201,7 @@ func at_another_place() -> LobeLight:
 	other.axes = axes
 	other.is_of_world = is_of_world
 	other.base_energy = base_energy
+	other.coarse = coarse
 	other.cubemap = cubemap
 	return other
 
@@ -202,12 +212,19 @@ func place(node_axes: Basis, factor: float) -> void:
 	energy = base_energy * factor
 
 
-## Hands the light to a material of the rendering server.
-func apply(material: RID) -> void:
+## Whether materials get other faces where their lobes are wide.
+func goes_by_width() -> bool:
+	return coarse != null
+
+
+## Hands the light to a material of the rendering server whose lobes are that of a BRDF of [param
+## width], the narrower one, or more; 0 if that is not known.
+func apply(material: RID, width := 0.0) -> void:
 	var server := RenderingServer
-	server.material_set_param(material, &"lobelight_environment", cubemap.get_rid())
-	server.material_set_param(material, &"lobelight_environment_sharpest", get_sharpest())
-	server.material_set_param(material, &"lobelight_environment_level", get_level())
+	var shown := coarse if coarse != null and width >= COARSE_WIDTH else self
+	server.material_set_param(material, &"lobelight_environment", shown.cubemap.get_rid())
+	server.material_set_param(material, &"lobelight_environment_sharpest", shown.get_sharpest())
+	server.material_set_param(material, &"lobelight_environment_level", shown.get_level())
 	apply_placement(material)
 
 

@@ -286,6 +286,7 @@ func _update() -> void:
 		MaterialParameters.apply(self, _choice)
 	else:
 		MaterialParameters.apply_lobes(self, _choice)
+	LightRegistry.set_width(_rid, _choice.get_narrowest())
 	_mutex.unlock()
 
 

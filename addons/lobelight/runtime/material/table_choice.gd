@@ -152,6 +152,17 @@ func get_alpha() -> Vector2:
 	return Vector2.ONE * clampf(roughness * roughness, _least, _largest)
 
 
+## The narrowest width among all lobes; 0 where widths vary or move.
+func get_narrowest() -> float:
+	if table == null:
+		return 0.0
+	var narrowest := minf(table.alpha.x, table.alpha.y)
+	for layer: LobeTable in [coat, sheen]:
+		if layer != null:
+			narrowest = minf(narrowest, layer.alpha.x)
+	return narrowest
+
+
 ## Whether each lobe has a second texel.
 func has_second_texels() -> bool:
 	return table != null and table.has_second_texels()
