@@ -57,6 +57,8 @@ BESIDE_THE_ENGINE = {
     "coordinates.gdshaderinc",
     "detail.gdshaderinc",
     "engine_light.gdshaderinc",
+    # Compared with LobeTableSet.table_at() by tests/render/moving_widths_test.gd.
+    "mix_tables.gdshader",
     "msdf.gdshaderinc",
     "parallax.gdshaderinc",
     "vertex.gdshaderinc",

@@ -1,6 +1,7 @@
 extends GdUnitTestSuite
 ## LobeLightEncoder's blocks, as the engine decodes them.
 
+const LightFormats := preload("res://addons/lobelight/editor/light/light_formats.gd")
 const SIZE := 32
 
 const REFUSED := [
@@ -44,6 +45,51 @@ func test_refusals(
 	var error: String = LobeLightEncoder.new().encode(request).get("error", "")
 	assert_str(error).contains(sentence)
 	assert_bool("\n" in error).is_false()
+
+
+# The coarse part is the light's levels from the second one on, within the rounding of shared
+# exponents, and looks a lobe up at the same blur.
+func test_a_light_in_blocks_has_a_coarse_part() -> void:
+	var halves: Array[Image] = []
+	for face in 6:
+		var image := Image.create_empty(64, 64, false, Image.FORMAT_RGBAF)
+		for at in 64 * 64:
+			@warning_ignore("integer_division")
+			var texel := Vector2i(at % 64, at / 64)
+			image.set_pixelv(texel, Color(exp(0.05 * texel.x), 0.1 + 0.01 * texel.y, 1.0 + face))
+		image.generate_mipmaps()
+		image.convert(Image.FORMAT_RGBAH)
+		halves.append(image)
+	var light := LobeLight.new()
+	light.faces = halves
+	light.size = 64
+	light.level_variance = 5.0 / 6.0
+	light.base_variance = 5.0 / 12.0
+	light.is_even = true
+	assert_str(LightFormats.convert_light(light, LightFormats.Format.BPTC)).is_empty()
+	var coarse := light.coarse
+	assert_int(light.faces[0].get_format()).is_equal(Image.FORMAT_BPTC_RGBFU)
+	assert_int(coarse.size).is_equal(16)
+	assert_vector(coarse.get_sharpest()).is_equal_approx(light.get_sharpest(), Vector2.ONE * 1e-9)
+	assert_float(light.get_level().x - coarse.get_level().x).is_equal_approx(2.0, 1e-6)
+	for face in 6:
+		var whole := halves[face].duplicate() as Image
+		whole.shrink_x2()
+		whole.shrink_x2()
+		for texel: Vector2i in [Vector2i(0, 0), Vector2i(7, 3), Vector2i(15, 15)]:
+			var wanted := whole.get_pixelv(texel)
+			var got := coarse.faces[face].get_pixelv(texel)
+			for channel in 3:
+				var largest := maxf(wanted.r, maxf(wanted.g, wanted.b))
+				assert_float(got[channel]).is_equal_approx(wanted[channel], largest / 256.0)
+	light.seal()
+	assert_str(light.get_problem()).is_empty()
+	coarse.version = 99
+	assert_str(light.get_problem()).contains("form 99")
+	# Whoever has no blocks needs no coarse part.
+	light.faces = halves
+	assert_str(LightFormats.convert_light(light, LightFormats.Format.SHARED_EXPONENT)).is_empty()
+	assert_object(light.coarse).is_null()
 
 
 # Waves of three colours from 0.1 to 5, with edges between them.

@@ -34,6 +34,32 @@ func after_test() -> void:
 	await _frames(SETTLED)
 
 
+# Which faces a material shows goes by its narrowest lobes, also when these change.
+func test_wide_lobes_show_the_coarse_part() -> void:
+	var light := LobeLight.make_constant(Color.WHITE, true)
+	light.coarse = LobeLight.make_constant(Color.WHITE, true)
+	var material := LobeMaterial3D.new()
+	material.light = light
+	material.roughness = 0.05
+	material.update_now()
+	_assert_shows(material, light)
+	material.roughness = 0.6
+	material.update_now()
+	_assert_shows(material, light.coarse)
+	material.clearcoat_enabled = true
+	material.clearcoat_roughness = 0.1
+	material.update_now()
+	_assert_shows(material, light)
+	material.clearcoat_enabled = false
+	material.update_now()
+	_assert_shows(material, light.coarse)
+	# Widths that move may become any.
+	for roughness: float in [0.5, 0.55]:
+		material.roughness = roughness
+		material.update_now()
+	_assert_shows(material, light)
+
+
 func test_the_first_drawn_frame_is_that_of_the_live_light() -> void:
 	var panorama := Kit.make_panorama(32, SkyKit.radiance)
 	var live := _make_live(panorama)
@@ -194,6 +220,13 @@ func test_a_damaged_light_leaves_the_live_one() -> void:
 	light.base_energy = 1.0
 	light.emit_changed()
 	assert_float(absf(await _see() - 0.5)).is_greater(0.05)
+
+
+func _assert_shows(material: LobeMaterial3D, light: LobeLight) -> void:
+	var shown: RID = RenderingServer.material_get_param(
+		material.get_rid(), &"lobelight_environment"
+	)
+	assert_bool(shown == light.cubemap.get_rid()).is_true()
 
 
 func _make_view() -> LinearViewport:
