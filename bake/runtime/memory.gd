@@ -3,6 +3,7 @@ extends RefCounted
 ## when the game runs and one that the library has made before; the panorama itself does not count.
 
 const Scene := preload("scene.gd")
+const LightFormats := preload("res://addons/lobelight/editor/light/light_formats.gd")
 const PanoramaFilter := preload("res://addons/lobelight/editor/light/panorama_filter.gd")
 const PANORAMA := Vector2i(2048, 1024)
 # Until what drew the light has been given back.
@@ -77,7 +78,9 @@ func _measure_light(kind: String, panorama: ImageTexture) -> Dictionary:
 func _bake(panorama: ImageTexture) -> LobeLight:
 	var request := PanoramaFilter.make_request(panorama.get_image())
 	var result: Dictionary = LobeLightFilter.new().filter(request)
-	return PanoramaFilter.make_light(request, result)
+	var light := PanoramaFilter.make_light(request, result)
+	LightFormats.convert_light(light, LightFormats.Format.BPTC)
+	return light
 
 
 static func _make_result(thing: String, bytes: int, file := 0) -> Dictionary:

@@ -13,6 +13,7 @@ extends EditorExportPlugin
 
 const Diet := preload("diet.gd")
 const ExtensionList := preload("extension_list.gd")
+const LightVariant := preload("light_variant.gd")
 const ProjectFiles := preload("project_files.gd")
 const Reach := preload("reach.gd")
 const TableChoice := preload("../../runtime/material/table_choice.gd")
@@ -91,7 +92,7 @@ func _export_begin(
 			add_file(path, shared[path], false)
 
 
-func _export_file(path: String, type: String, _features: PackedStringArray) -> void:
+func _export_file(path: String, type: String, features: PackedStringArray) -> void:
 	if _diet != null and _diet.panoramas.shares.has(path):
 		_export_panorama(_diet.panoramas.shares[path])
 		return
@@ -102,6 +103,8 @@ func _export_file(path: String, type: String, _features: PackedStringArray) -> v
 			add_file(Diet.EDITED + name, edited, true)
 			return
 	if not path.begins_with(ADDON) or path == _project_icon():
+		if LightVariant.is_asked_for(features):
+			_export_variant(path, type)
 		return
 	var name := path.trim_prefix(ADDON)
 	if name.get_extension() == "gdextension":
@@ -120,6 +123,13 @@ func _export_file(path: String, type: String, _features: PackedStringArray) -> v
 		skip()
 	if _diet != null and _diet.code.files.has(path):
 		_export_code(path, _diet.code.files[path])
+
+
+# A light that phones take in other blocks.
+func _export_variant(path: String, type: String) -> void:
+	var bytes := LightVariant.of(path, type)
+	if not bytes.is_empty():
+		add_file(Diet.EDITED + path.md5_text() + ".res", bytes, true)
 
 
 # A panorama that is left out or made smaller, not by the engine's way to put a file in the place of
