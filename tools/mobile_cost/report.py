@@ -20,6 +20,13 @@ GOALS = (
     ("adreno320", "gmm8", "instructions", 850),
 )
 GOAL_GPU = "adreno630"
+# What a layer or another kind of surface may add to the metal of a ready set.
+LAYERS = (
+    ("gmm8_coat", "gmm8_set", 160),
+    ("gmm8_coat_isotropic", "gmm8_set_isotropic", 160),
+    ("gmm8_dielectric", "gmm8_set", 60),
+)
+MALI_WITH_COAT = 60
 # Directions from uniforms serve materials whose widths are the same all over; the other samples per pixel.
 QUARTERS = (("gmm8", "fis40"), ("gmm8", "fis40_ggx"))
 # What the first probe may add.
@@ -79,6 +86,15 @@ def goals(rows):
         if (gpu, variant) in values:
             value = values[gpu, variant][figure]
             told.append((f"{GPUS[gpu].label}, {variant}: {value} {figure}, at most {most} wanted", value <= most))
+    for name, without, most in LAYERS:
+        if name in found and without in found:
+            more = found[name]["instructions"] - found[without]["instructions"]
+            told.append((f"{name} over {without}: {more} instructions more, at most {most} wanted", more <= most))
+    mali = values.get(("mali-g610", "gmm8_coat"))
+    if mali:
+        cycles = mali["units"]["ls"]
+        sentence = f"{GPUS['mali-g610'].label}, gmm8_coat: {cycles:g} load/store cycles, at most {MALI_WITH_COAT} wanted"
+        told.append((sentence, cycles <= MALI_WITH_COAT))
     for name, rival in QUARTERS:
         if name in found and rival in found:
             share = found[name]["instructions"] / found[rival]["instructions"]
