@@ -176,7 +176,8 @@ def half_vector_error(alpha, results):
     for n in range(3):
         scale = alpha[n] * results[15 + n] if n < 2 else 1.0
         off = max(off, *(abs(results[17 + 3 * n + i] - scale * results[3 * n + i]) for i in range(3)))
-    return off, 2 * U * max(1.0, *alpha), "half-vectors"
+    # Through 1 / alpha and back.
+    return off, 8 * U * max(1.0, *alpha), "half-vectors"
 
 
 def expect_anisotropic_view(row):
@@ -202,6 +203,40 @@ def expect_anisotropic_view(row):
     return checks
 
 
+def expect_view_along(row):
+    """The same from an axis; which way the frame's first two columns point is told by the view, or by `side`."""
+    frame = tuple(vector(row[4 * n : 4 * n + 3]) for n in range(3))
+    view = vector(row[12:15])
+    to_environment = tuple(vector(row[4 * n : 4 * n + 3]) for n in range(4, 7))
+    raw = tuple(dot(view, axis) for axis in frame)
+    o = clamp_view(raw)
+    length = float(norm((raw[0], raw[1], max(raw[2], LEAST_COSINE))))
+    # The view's length in the table's range is the root of a difference.
+    unit = (24 * U / length + 12 * U / length**2) + INVERSE_SQRT + 24 * U + 1e-9
+    turned = [shader.columns_times(to_environment, axis) for axis in frame]
+
+    def off_frame(results):
+        first, second = (tuple(results[3 * n : 3 * n + 3]) for n in range(2))
+        aligned = [abs(sum(float(x) * y for x, y in zip(turned[n], column))) for n, column in enumerate((first, second))]
+        return max(abs(x - 1) for x in aligned), 40 * U, "frame"
+
+    def off_view(results):
+        wanted = (abs(float(o[0])), abs(float(o[1])), float(o[2]))
+        got = (results[9], results[10] * results[16], results[11])
+        return max(abs(x - y) for x, y in zip(wanted, got)), unit, "radians"
+
+    def off_components(results):
+        """What the view is by the frame is what it says."""
+        toward = results[12:15]
+        parts = [sum(results[3 * n + i] * toward[i] for i in range(3)) for n in range(3)]
+        return max(abs(x - y) for x, y in zip(parts, results[9:12])), 2 * unit + 16 * U, "view"
+
+    checks = [Near((6, 7, 8), turned[2], 8 * U, "radians"), Holds(off_frame), Holds(off_view), Holds(off_components)]
+    checks.append(Near((12, 13, 14), shader.columns_times(turned, o), unit + 16 * U, "radians"))
+    checks.append(Holds(partial(half_vector_error, (row[3], row[7]))))
+    return checks
+
+
 ANGLES = [0.0, 1e-6, 1e-4, 5.6e-4, 6e-4, 1e-3, 0.1, 10, 45, 80, 89, 89.4, 89.9, 89.99, 90, 90.01, 91, 120, 150, 179, 180]
 TURNS = [0, 30, 90, 135, 180, 225, 270, 300]
 
@@ -211,6 +246,8 @@ def view_probes(quick):
     round_one = Probe("view_isotropic", "shader view", "view", 26, expect_isotropic_view)
     round_one.defines = ("LOBELIGHT_ISOTROPIC",)
     other = Probe("view_anisotropic", "shader view", "view", 26, expect_anisotropic_view)
+    along = Probe("view_along", "shader view", "view", 26, expect_view_along)
+    along.defines = ("LOBELIGHT_AXIS",)
     for seed in (0, 1) if quick else (0, 1, 2, 3):
         frame = IDENTITY if seed == 0 else turn(seed)
         second = turn(seed + 10)
@@ -222,7 +259,8 @@ def view_probes(quick):
             padded = [x for column in second for x in (*column, 0.0)]
             rows = [(*frame[0], 0.5, *frame[1], 0.01, *frame[2], 0.0, *view, 0.0, *padded) for view in turned]
             other.add(f"view anisotropic {name}", rows)
-    return [round_one, other]
+            along.add(f"view along an axis {name}", rows)
+    return [round_one, other, along]
 
 
 def probes(quick):

@@ -96,20 +96,22 @@ def level_probes(quick):
 
 
 def lobe_bounds(x, y, half_vectors, o):
-    """(mean in radians, cosine), absolute. r: three roundings of each component of the half-vector before it is unit."""
+    """(mean in radians, cosine), absolute. r: the roundings of each component of the half-vector before it is unit: three, and
+    three of what stands in for alpha."""
     parts = [abs(n) + abs(x * t) + abs(y * b) for t, b, n in zip(*half_vectors)]
     whole = [n + x * t + y * b for t, b, n in zip(*half_vectors)]
-    r = 3 * U * math.hypot(*parts) / math.hypot(*whole)
+    r = 6 * U * math.hypot(*parts) / math.hypot(*whole)
     length = math.hypot(*o)
-    # 1 / length: half of the dot product's 2 r + 3U, and its own; o.h: r and 3U for the sum, U for the product.
+    # 1 / length: half of the dot product's 2 r + 3U, and its own; o.h, in tangent space: r, 3U for the view's components in
+    # it, 3U for the sum and U for the product, where parts may cancel.
     inverse = r + 2 * U + INVERSE_SQRT
-    cosine = length * (r + 4 * U) + inverse
+    cosine = length * (r + 12 * U) + inverse
     return 2 * (cosine + inverse + r + 4 * U) + U, cosine
 
 
 def expect_decode(row):
     texel, o = row[:4], row[16:19]
-    half_vectors = (row[4:7], row[8:11], row[12:15])
+    half_vectors = scaled_columns((row[4:7], row[8:11], row[12:15]), (row[7], row[11]), (1, row[15]))
     mean, variance, cosine = shader.lobe(texel, tuple(map(vector, half_vectors)), vector(o))
     mean_bound, cosine_bound = lobe_bounds(texel[0], texel[1], half_vectors, o)
     relative = cosine_bound / float(cosine) + exp2_error(texel[2]) + 2 * U
@@ -153,8 +155,7 @@ def decode_probe(quick):
                 frame = IDENTITY if seed % 2 else turn(seed)
                 o = [float(x) for x in clamp_view(vector(view_at(elevation, azimuth)))]
                 o = [sum(frame[n][axis] * o[n] for n in range(3)) for axis in range(3)]
-                columns = scaled_columns(frame, alpha, (1, 1 if seed % 3 else -1))
-                padded = [x for column in columns for x in (*column, 0.0)]
+                padded = [x for column, w in zip(frame, (*alpha, 1 if seed % 3 else -1)) for x in (*column, w)]
                 rows = [
                     (x, y, z, 0.125, *padded, *o, 0.0) for x in slopes_x for y in slopes_y for z in logarithms
                 ]

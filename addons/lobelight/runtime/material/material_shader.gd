@@ -245,6 +245,8 @@ static func _add_fades(surface: LobeBaseMaterial3D, defines: PackedStringArray) 
 
 # What the engine's lamps alone show.
 static func _add_lamps(surface: LobeBaseMaterial3D, defines: PackedStringArray) -> void:
+	if surface.cull_mode != BaseMaterial3D.CULL_BACK:
+		defines.append("BACK_SIDES")
 	if surface.shading_mode == BaseMaterial3D.SHADING_MODE_PER_VERTEX:
 		defines.append("PER_VERTEX")
 	if not surface.has_lamp_effects():
