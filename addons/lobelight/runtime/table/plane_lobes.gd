@@ -4,8 +4,8 @@ extends RefCounted
 ##
 ## They lie in the plane of incidence and only the view moves them, so that directions, variances
 ## and Fresnel's factor are computed here, once. A texel is (d · r, d · q, weight, weight ·
-## (1 − o · h)⁵), d being the lobe's mean times 256 times the square root of its variance, r the mirror
-## direction of the view o, and q the direction across r in the plane, on the view's side
+## (1 − o · h)⁵), d being the lobe's mean times 256 times the square root of its variance, r the
+## mirror direction of the view o, and q the direction across r in the plane, on the view's side
 ## ([code]lobelight_plane_lobe[/code] in [code]shaders/lobe_table.gdshaderinc[/code]).
 
 # As the shader takes half-vectors that are turned away from the view.
