@@ -138,7 +138,7 @@ func test_an_environment_that_goes_while_it_is_baked_is_let_go() -> void:
 	_environment.size = 256
 	_bakes.add(_environment)
 	_environment.free()
-	var is_over := func() -> bool: return _bakes._running == null
+	var is_over := func() -> bool: return _bakes._itself == null
 	assert_bool(await Kit.wait_until(get_tree(), is_over)).is_true()
 	assert_array(Array(_messages)).is_empty()
 

@@ -21,7 +21,7 @@ const OPTIONS := {
 ## File, options, texels along a face, the light's colour.
 const GOOD := [
 	["layers.exr", {}, 8, Color(10, 11, 12)],
-	["layers.exr", {"format": LightFormats.Format.BPTC}, 8, Color(10, 11, 12)],
+	["layers.exr", {"format": LightFormats.Format.SHARED_EXPONENT}, 8, Color(10, 11, 12)],
 	["layers.exr", {"layer": "key", "size": 32}, 32, Color(1, 2, 3)],
 	["parts.exr", {"exposure": 1.0, "filter": Pyramid.Filter.GAUSSIAN}, 8, Color(4, 4, 4)],
 ]
@@ -86,7 +86,7 @@ func test_panoramas_are_imported_as_lights() -> void:
 		assert_str(light.get_problem()).is_empty()
 		assert_int(light.size).is_equal(case[2])
 		var format: LightFormats.Format = (case[1] as Dictionary).get(
-			"format", LightFormats.Format.SHARED_EXPONENT
+			"format", LightFormats.Format.BPTC
 		)
 		assert_int(light.faces[0].get_format()).is_equal(LightFormats.IMAGE_FORMATS[format])
 		assert_bool(light.is_of_world).is_false()

@@ -24,7 +24,8 @@ var _undo_redo: EditorUndoRedoManager
 var _waiting: Array[Node3D] = []
 var _running: Node3D
 var _is_cancelling := false
-var _environment_bake: EnvironmentBake
+# The same for all: what is freed while its own function ends leaves that behind (Godot 4.6).
+var _environment_bake := EnvironmentBake.new()
 var _done := 0
 # This object, while it bakes: captures end also when the addon is disabled meanwhile.
 var _itself: RefCounted
@@ -39,7 +40,8 @@ func add(node: Node3D) -> void:
 	if is_baking(node):
 		return
 	_waiting.append(node)
-	if _running == null:
+	# A node that has gone while it was baked is none, but its bake is not over.
+	if _itself == null:
 		_run()
 	else:
 		changed.emit()
@@ -67,7 +69,7 @@ func get_running() -> Node3D:
 
 ## How much of the bake under way is done, from 0 to 1, as far as it is known.
 func get_fraction() -> float:
-	return _environment_bake.get_progress() if _environment_bake != null else 0.0
+	return _environment_bake.get_progress()
 
 
 ## How many bakes have ended, and how many there are with them, since there was none.
@@ -82,9 +84,8 @@ func cancel_all() -> void:
 	for node: Variant in waiting:
 		if is_instance_valid(node):
 			cancelled.emit(node)
-	_is_cancelling = _running != null
-	if _environment_bake != null:
-		_environment_bake.cancel()
+	_is_cancelling = _itself != null
+	_environment_bake.cancel()
 	changed.emit()
 
 
@@ -186,9 +187,7 @@ static func _pack(light: LobeLight) -> Variant:
 
 func _capture(node: Node3D) -> Variant:
 	if node is LobeEnvironment3D:
-		_environment_bake = EnvironmentBake.new()
 		var made: Variant = await _environment_bake.make(node as LobeEnvironment3D)
-		_environment_bake = null
 		return _pack(made as LobeLight) if made is LobeLight else made
 	var probe := node as LobeProbe3D
 	if not await probe.rebuild():

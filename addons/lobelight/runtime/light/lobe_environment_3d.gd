@@ -107,8 +107,9 @@ const LightRegistry := preload("light_registry.gd")
 const LightSettings := preload("light_settings.gd")
 const OnDemand := preload("../on_demand.gd")
 
-## Texels along the side of a face: the least and the most that can be asked for.
+## Texels along the side of a face: the least that can be asked for.
 const MIN_SIZE := 4
+## The most.
 const MAX_SIZE := 2048
 
 const _GROUP := &"_lobelight_environments"
