@@ -12,7 +12,7 @@ var error := ""
 ## To be awaited.
 func measure(tree: SceneTree, scale: int, rounds: int) -> Array[Dictionary]:
 	@warning_ignore("integer_division")
-	var rows: Array[Dictionary] = await Bench.new(tree).measure(MATERIALS / scale, 4 * rounds)
+	var rows: Array[Dictionary] = await Bench.new(tree).measure(MATERIALS / scale, 25 * rounds)
 	for row in rows:
 		row["renderer"] = RenderingServer.get_current_rendering_method()
 		print(

@@ -80,7 +80,7 @@ enum UpdateMode {
 	## (TIME) or with the camera (POSITION), of global uniforms, of textures that are
 	## filled without their signal [signal Resource.changed], and of what happens in a captured scene:
 	## take another mode, or call [method rebuild]. Moving the node counts, where it captures. What has
-	## not changed for 120 frames is looked at in every fourth frame.
+	## not changed for 120 frames is looked at in every sixth frame.
 	WHEN_CHANGED,
 	## In every frame.
 	EVERY_FRAME,

@@ -24,6 +24,9 @@ const DEFAULT_SIZE := 256
 const _SKY_SAMPLES := 2
 const _SCENE_SAMPLES := 1
 
+# 0 or 1 once it is known.
+static var _is_compatible := -1
+
 var _settings: LightSettings
 var _kind := Kind.NONE
 # Null while the light is that of the node's own panorama.
@@ -232,5 +235,9 @@ func _make_key() -> Array:
 	return [_kind, _settings.size, _settings.filter, _settings.measure_cost, texture, width]
 
 
+# Asked in each frame.
 static func _is_compatibility() -> bool:
-	return RenderingServer.get_current_rendering_method() == "gl_compatibility"
+	if _is_compatible == -1:
+		var method := RenderingServer.get_current_rendering_method()
+		_is_compatible = int(method == "gl_compatibility")
+	return _is_compatible == 1

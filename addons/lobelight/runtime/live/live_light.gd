@@ -14,9 +14,9 @@ const PyramidChain := preload("../pyramid/pyramid_chain.gd")
 
 # Frames without an update after which the memory for drawing is given back.
 const _IDLE_FRAMES := 120
-# A source in which nothing has changed for so many frames is looked at in every fourth only.
+# A source in which nothing has changed for so many frames is looked at in every sixth only.
 const _STILL_FRAMES := 120
-const _STILL_STEP := 4
+const _STILL_STEP := 6
 # Captures after that of a change, each of which brings one more reflection between materials.
 const _ECHOES := 3
 # Milliseconds in which a scene may still get the sky that its light lacks.

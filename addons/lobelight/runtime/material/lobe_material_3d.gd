@@ -256,7 +256,8 @@ func _queue_look() -> void:
 
 func _update_widths() -> void:
 	_mutex.lock()
-	if not _queued and not _choice.follow(self, _rid):
+	var shown := anisotropy if anisotropy_enabled else 0.0
+	if not _queued and not _choice.follow(roughness, shown, _rid):
 		_queue_look()
 	_mutex.unlock()
 

@@ -92,20 +92,19 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 
 
 ## Hands on other widths at once, where they take no other shader; otherwise returns false, and the
-## lobes are to be looked for anew. [param material] is the surface's own. It is called for each
-## animated material in each frame, and calls little itself.
-func follow(surface: LobeBaseMaterial3D, material: RID) -> bool:
+## lobes are to be looked for anew. [param shown_anisotropy] is 0 where it is switched off. It is
+## called for each animated material in each frame, and calls little itself.
+func follow(new_roughness: float, shown_anisotropy: float, material: RID) -> bool:
 	if not _can_follow:
 		_changes += 1
 		# Without a set widths do not count.
 		return not is_from_set
-	var turned := 0.0
-	if surface.anisotropy_enabled and not _ignores_anisotropy:
-		turned = surface.anisotropy
+	var turned := 0.0 if _ignores_anisotropy else shown_anisotropy
 	if (turned == 0.0) != (anisotropy == 0.0) or turned < 0.0 and _has_turn:
 		return false
-	roughness = surface.roughness
-	RenderingServer.material_set_param(material, &"lobelight_roughness", roughness)
+	if new_roughness != roughness:
+		roughness = new_roughness
+		RenderingServer.material_set_param(material, &"lobelight_roughness", roughness)
 	if _rows != null:
 		var width := clampf(roughness * roughness, _least, _largest)
 		_row_lookup.w = _row_step * log(width) + _first_row
