@@ -25,7 +25,7 @@ RENDERER = "gl_compatibility"
 # By file: a constant, what it becomes, and what probes run it.
 CHANGES = {
     "clear_coat.gdshaderinc": ("LOBELIGHT_COAT_F0 = 0.04", "LOBELIGHT_COAT_F0 = 0.041", ["coat_levels"]),
-    "colour.gdshaderinc": ("6.97941112", "6.98941112", ["colour"]),
+    "colour.gdshaderinc": ("6.97891534", "6.98891534", ["colour"]),
     "cube_faces.gdshaderinc": ("return vec3(p.x, 1.0, p.y);", "return vec3(p.x, 1.001, p.y);", ["faces"]),
     "diffuse.gdshaderinc": ("ASIDE = 0.645833", "ASIDE = 0.655833", ["diffuse_directions"]),
     "environment.gdshaderinc": ("0.5175971", "0.5275971", ["level_disc_size_16"]),

@@ -47,9 +47,9 @@ def encode_error(x):
         # f is taken for its last term: what is left out is 0.682171111 (x / 0.012522878)^2.
         off = 4350.0 * x**2
     elif x < 0.001:
-        off = 2.8e-6
+        off = 5e-6
     else:
-        off = (0.00013 if 0.002 <= x <= 4.0 else 0.003) * x
+        off = (0.00023 if 0.002 <= x <= 4.0 else 0.0014) * x
     most = max(shader.encoded(x + off) - root, root - shader.encoded(max(x - off, 0.0)))
     return float(most / root) + pow_error(x, 0.5) + 40 * U
 
