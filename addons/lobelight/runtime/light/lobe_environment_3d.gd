@@ -34,8 +34,8 @@ extends Node3D
 ## GPU, one in each frame but for the first light, [method rebuild] and [constant EVERY_FRAME];
 ## meanwhile the engine takes memory for a face. The cube map stays; what draws it is given back 120
 ## frames after the last update, and is made anew for the next one. With software drivers, 256
-## texels of a sky take about two thirds of a frame of 720p with eight lobes, and in Compatibility
-## 2 ms of the processor besides ([code]./dev bench runtime[/code]); [member update_gpu_time] and
+## texels of a sky take about as long as a frame of 720p with eight lobes, and in Compatibility
+## 1 ms of the processor besides ([code]./dev bench runtime[/code]); [member update_gpu_time] and
 ## [member update_cpu_time] tell for yours.
 ## [br][br]
 ## [b]Baked light.[/b] What does not change when the game runs can be filtered in the editor, by
