@@ -46,8 +46,9 @@ Dictionary result_of(const String& path, const Read& read) {
 }  // namespace
 
 void LobeImageFile::_bind_methods() {
-  ClassDB::bind_static_method("LobeImageFile", D_METHOD("load_panorama", "path", "layer"),
-                              &LobeImageFile::load_panorama, DEFVAL(String()));
+  ClassDB::bind_static_method(
+      "LobeImageFile", D_METHOD("load_panorama", "path", "layer", "max_side"),
+      &LobeImageFile::load_panorama, DEFVAL(String()), DEFVAL(kMaxPanoramaSide));
   ClassDB::bind_static_method("LobeImageFile",
                               D_METHOD("load_half_panorama", "path", "layer", "exposure"),
                               &LobeImageFile::load_half_panorama, DEFVAL(String()), DEFVAL(0.0));
@@ -58,9 +59,10 @@ void LobeImageFile::_bind_methods() {
                               &LobeImageFile::save_exr);
 }
 
-Dictionary LobeImageFile::load_panorama(const String& path, const String& layer) {
+Dictionary LobeImageFile::load_panorama(const String& path, const String& layer,
+                                        std::int64_t max_side) {
   return result_of(path, [&] {
-    Panorama panorama = lobelight::load_panorama(file_system_path(path), to_std(layer));
+    Panorama panorama = lobelight::load_panorama(file_system_path(path), to_std(layer), max_side);
     const std::size_t clamped = panorama.sanitise();
     Dictionary result = describe(panorama, clamped);
     result["pixels"] = to_godot(panorama.rgb);

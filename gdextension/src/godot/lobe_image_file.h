@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <godot_cpp/classes/ref_counted.hpp>
 #include <godot_cpp/core/class_db.hpp>
 
@@ -10,7 +11,8 @@ class LobeImageFile : public godot::RefCounted {
   GDCLASS(LobeImageFile, godot::RefCounted)
 
  public:
-  static godot::Dictionary load_panorama(const godot::String& path, const godot::String& layer);
+  static godot::Dictionary load_panorama(const godot::String& path, const godot::String& layer,
+                                         std::int64_t max_side);
 
   // As RGBA16F, for a texture.
   static godot::Dictionary load_half_panorama(const godot::String& path, const godot::String& layer,

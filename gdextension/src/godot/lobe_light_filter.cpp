@@ -1,6 +1,7 @@
 #include "godot/lobe_light_filter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -8,7 +9,9 @@
 
 #include "godot/convert.h"
 #include "godot/request.h"
+#include "image/compact_sources.h"
 #include "image/panorama.h"
+#include "image/panorama_faces.h"
 #include "image/pyramid.h"
 
 using namespace godot;
@@ -34,6 +37,45 @@ Panorama read_panorama(const Request& request, const Dictionary& values) {
   return {width, height, std::vector<float>(floats.ptr(), floats.ptr() + count)};
 }
 
+int read_most_sources(const Request& request) {
+  const int most = request.integer("max_sources", 0);
+  if (most < 0 || most > kMaxSources) {
+    throw std::invalid_argument("max_sources is " + std::to_string(most) +
+                                ", but must be from 0 to " + std::to_string(kMaxSources) + ".");
+  }
+  return most;
+}
+
+double read_exposure(const Request& request) {
+  const double exposure = request.real("exposure", 0.0);
+  if (!(std::abs(exposure) <= 64.0)) {
+    throw std::invalid_argument("exposure must be from -64 to 64.");
+  }
+  return exposure;
+}
+
+// Takes sources out of a panorama for a result, and says what of the rest is too bright for it.
+// Pictures in sRGB, which end at white, have neither.
+Dictionary take_sources_of(Panorama& panorama, int most, double exposure,
+                           const PyramidOptions& options, Progress& progress) {
+  std::vector<CompactSource> sources;
+  if (!options.is_srgb) {
+    panorama.brighten(exposure);
+    sources = take_sources(panorama, most, options.threads, progress);
+    panorama.warn_of_limit(exposure);
+  }
+  if (options.as_sky) {
+    for (CompactSource& source : sources) source.direction = sky_direction(source.direction);
+  }
+  Array warnings;
+  for (const std::string& warning : panorama.warnings) warnings.append(to_godot(warning));
+  Dictionary result;
+  result["source_count"] = static_cast<std::int64_t>(sources.size());
+  result["sources"] = to_godot(source_texels(sources));
+  result["warnings"] = warnings;
+  return result;
+}
+
 PyramidOptions read_options(const Request& request) {
   PyramidOptions options;
   const std::string filter = request.text("filter", kDisc);
@@ -57,22 +99,36 @@ PyramidOptions read_options(const Request& request) {
 
 void LobeLightFilter::_bind_methods() {
   ClassDB::bind_method(D_METHOD("filter", "request"), &LobeLightFilter::filter);
+  ClassDB::bind_method(D_METHOD("find_sources", "request"), &LobeLightFilter::find_sources);
 }
 
 Dictionary LobeLightFilter::filter(const Dictionary& request) const { return run(request); }
 
+Dictionary LobeLightFilter::find_sources(const Dictionary& values) const {
+  Dictionary only;
+  const Array keys = values.keys();
+  for (std::int64_t n = 0; n < keys.size(); ++n) only[keys[n]] = values[keys[n]];
+  only["only_sources"] = true;
+  return run(only);
+}
+
 LobeTask::Work LobeLightFilter::prepare(const Dictionary& values) const {
-  const Request request(values, "a panorama to filter",
-                        {"pixels", "width", "height", "srgb", "as_sky", "size", "filter", "samples",
-                         "base_variance", "level_variance", "threads"});
+  const Request request(
+      values, "a panorama to filter",
+      {"pixels", "width", "height", "srgb", "as_sky", "size", "filter", "samples", "base_variance",
+       "level_variance", "threads", "exposure", "max_sources", "only_sources"});
   const PyramidOptions options = read_options(request);
+  const int most_sources = read_most_sources(request);
+  const double exposure = read_exposure(request);
+  const bool only_sources = request.truth("only_sources", false);
   // Work is copied, the panorama should not be.
-  const auto panorama = std::make_shared<const Panorama>(read_panorama(request, values));
-  return [panorama, options](Progress& progress) {
+  const auto panorama = std::make_shared<Panorama>(read_panorama(request, values));
+  return [=](Progress& progress) {
+    Dictionary result = take_sources_of(*panorama, most_sources, exposure, options, progress);
+    if (only_sources) return result;
     const LightPyramid pyramid = filter_panorama(*panorama, options, progress);
     Array faces;
     for (const auto& face : pyramid.faces) faces.append(to_bytes(face));
-    Dictionary result;
     result["size"] = pyramid.size;
     result["faces"] = faces;
     return result;

@@ -10,6 +10,7 @@ class LobeLightFilter : public LobeTask {
 
  public:
   godot::Dictionary filter(const godot::Dictionary& request) const;
+  godot::Dictionary find_sources(const godot::Dictionary& request) const;
 
  protected:
   static void _bind_methods();

@@ -132,35 +132,50 @@ std::size_t Panorama::sanitise() {
   return changed;
 }
 
-std::size_t Panorama::expose(double exposure) {
+void Panorama::brighten(double exposure) {
+  if (exposure == 0.0) return;
   const double factor = std::exp2(exposure);
-  std::size_t capped = 0;
+  for (float& value : rgb) value = static_cast<float>(factor * static_cast<double>(value));
+}
+
+std::size_t Panorama::warn_of_limit(double exposure) {
+  if (std::none_of(rgb.begin(), rgb.end(), [](float value) { return value > kLargestHalf; })) {
+    return 0;
+  }
+  std::size_t above = 0;
   double all = 0.0, lost = 0.0, brightest = 0.0;
   std::size_t at = 0;
   for (int row = 0; row < height; ++row) {
     // As much of the sphere as each texel of the row covers, but for a factor.
     const double weight = std::sin(kPi * (row + 0.5) / height);
     for (int column = 0; column < width; ++column) {
-      bool is_capped = false;
+      bool is_above = false;
       for (int channel = 0; channel < 3; ++channel, ++at) {
-        const double value = factor * static_cast<double>(rgb[at]);
-        const double kept = std::min(value, static_cast<double>(kLargestHalf));
+        const double value = std::isfinite(rgb[at]) ? light(rgb[at]) : 0.0;
+        const double beyond = std::max(value - static_cast<double>(kLargestHalf), 0.0);
         all += weight * value;
-        lost += weight * (value - kept);
+        lost += weight * beyond;
         brightest = std::max(brightest, value);
-        is_capped = is_capped || value > kept;
-        rgb[at] = static_cast<float>(kept);
+        is_above = is_above || beyond > 0.0;
       }
-      capped += is_capped ? 1 : 0;
+      above += is_above ? 1 : 0;
     }
   }
-  if (capped > 0) {
+  if (above > 0) {
     warnings.push_back("has " +
-                       texels(capped, "that is brighter than 65504 and has",
+                       texels(above, "that is brighter than 65504 and has",
                               "that are brighter than 65504 and have") +
                        " that now: " + percent(lost / all) + " of the light is lost; " +
                        exposure_hint(exposure, brightest));
   }
+  return above;
+}
+
+std::size_t Panorama::expose(double exposure) {
+  brighten(exposure);
+  const std::size_t capped = warn_of_limit(exposure);
+  if (capped == 0) return 0;
+  for (float& value : rgb) value = std::min(value, kLargestHalf);
   return capped;
 }
 

@@ -45,6 +45,13 @@ struct Panorama {
   // Multiplies a sanitised panorama by 2^`exposure` and caps it at 65504. Returns how many texels
   // were capped, and warns of the light that goes.
   std::size_t expose(double exposure);
+
+  // Multiplies a sanitised panorama by 2^`exposure`, without a limit.
+  void brighten(double exposure);
+
+  // How many texels are brighter than 65504, and for them a warning: what light is lost where that
+  // is the limit, and which exposure instead of `exposure` keeps it.
+  std::size_t warn_of_limit(double exposure);
 };
 
 // Position of `direction` (a unit vector) on a panorama, as Godot's PanoramaSkyMaterial has it:

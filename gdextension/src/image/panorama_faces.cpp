@@ -125,6 +125,24 @@ glm::dvec3 PanoramaLight::mean(const glm::dvec3& d, double azimuth, double polar
   return sum / (4.0 * half.x * half.y);
 }
 
+glm::dvec3 sky_direction(const glm::dvec3& d) {
+  // Both of its angles grow with the true ones.
+  const auto invert = [](const auto& sky_angle, double wanted, double below, double above) {
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = 0.5 * (below + above);
+      (sky_angle(middle) < wanted ? below : above) = middle;
+    }
+    return 0.5 * (below + above);
+  };
+  const double polar = invert([](double angle) { return sky_acos(std::cos(angle)); },
+                              std::acos(std::clamp(d.y, -1.0, 1.0)), 0.0, kPi);
+  const double azimuth =
+      invert([](double angle) { return sky_atan(std::sin(angle), std::cos(angle)); },
+             std::atan2(d.x, -d.z), -kPi, kPi);
+  return {std::sin(polar) * std::sin(azimuth), std::cos(polar),
+          -std::sin(polar) * std::cos(azimuth)};
+}
+
 glm::dvec3 level_0_texel(const PanoramaLight& light, const PyramidOptions& options, int face,
                          int column, int row) {
   if (!(options.base_variance > 0.0)) return mean_over_texel(light, options, face, column, row);

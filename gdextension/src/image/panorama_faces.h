@@ -32,6 +32,9 @@ class PanoramaLight {
   bool as_sky_;
 };
 
+// Where Godot's sky shows what lies at the unit vector d of a panorama.
+glm::dvec3 sky_direction(const glm::dvec3& d);
+
 // A texel of level 0 of the pyramid, before it is rounded: shaders/pyramid_panorama.gdshader.
 glm::dvec3 level_0_texel(const PanoramaLight& light, const PyramidOptions& options, int face,
                          int column, int row);
