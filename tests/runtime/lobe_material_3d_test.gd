@@ -94,6 +94,21 @@ func test_variants_follow_the_properties() -> void:
 	assert_bool("EMISSION" in material.get_shader_code()).is_false()
 
 
+func test_sources_of_a_light_take_another_shader() -> void:
+	var material := LobeMaterial3D.new()
+	var without := material.get_shader_code()
+	material.light = LobeLight.make_dark(true)
+	assert_str(material.get_shader_code()).is_equal(without)
+	material.light.sources = PlaceholderTexture2D.new()
+	var code := "#define LOBELIGHT_SOURCES\n#define LOBELIGHT_SOURCES_GGX\n"
+	assert_str(material.get_shader_code()).contains(code)
+	assert_str(material.get_shader_code().replace(code, "")).is_equal(without)
+	material.table = LobeTable.make_single_lobe()
+	assert_str(material.get_shader_code()).contains("#define LOBELIGHT_SOURCES_IN_LOBES\n")
+	material.light = null
+	assert_str(material.get_shader_code()).not_contains("SOURCES")
+
+
 func test_levels_of_texels_have_a_variant_of_their_own() -> void:
 	var material := LobeMaterial3D.new()
 	material.metallic = 1.0

@@ -23,7 +23,7 @@ KNOWS = {
     # Shows a light through a table. It preloads what its shader includes.
     "material": (
         *("table", "light", "shaders", "antialiasing", "clear_coat", "diffuse", "occlusion"),
-        *("detail", "fades", "lamps", "msdf", "parallax", "sheen", "triplanar", "vertices"),
+        *("detail", "fades", "lamps", "msdf", "parallax", "sheen", "sources", "triplanar", "vertices"),
     ),
     # Parts that exports may leave out. They know those whom they serve, and these load them on demand.
     "antialiasing": (),
@@ -40,6 +40,7 @@ KNOWS = {
     "triplanar": (),
     "vertices": (),
     "sheen": (),
+    "sources": (),
     "filters": (),
     "occlusion": (),
     "compatibility": ("pyramid",),

@@ -13,6 +13,7 @@ const CONVERSION := "conversion between materials"
 const RENDERING_DEVICE := "the renderers Forward+ and Mobile"
 const MIXING := "widths of anisotropic materials that change"
 const ENGINE_LIGHT := "diffuse light of the engine"
+const SOURCES := "suns and lamps that are taken out of lights"
 const COMPATIBILITY := "the renderer Compatibility"
 
 # Kept, as what is preloaded is.

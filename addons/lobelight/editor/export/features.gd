@@ -48,6 +48,7 @@ const FOLDERS: Dictionary[String, String] = {
 	"live": OnDemand.LIVE,
 	"probes": OnDemand.PLACES,
 	"sheen": SHEEN,
+	"sources": OnDemand.SOURCES,
 	"gltf": GLTF,
 	"rendering_device": OnDemand.RENDERING_DEVICE,
 	"skies": OnDemand.SKIES,
@@ -65,6 +66,7 @@ const DEFINES: Dictionary[String, String] = {
 	OnDemand.ENGINE_LIGHT: "LOBELIGHT_ENGINE",
 	OnDemand.PLACES: "LOBELIGHT_PLACED",
 	SHEEN: "LOBELIGHT_SHEEN",
+	OnDemand.SOURCES: "LOBELIGHT_SOURCES",
 	TRIPLANAR: "LOBELIGHT_TRIPLANAR",
 	VERTICES: "LOBELIGHT_VERTICES",
 }
@@ -83,6 +85,7 @@ const _WORDS: Dictionary[String, String] = {
 	OnDemand.MIXING: "roughness|anisotropy",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
 	OnDemand.LIVE: "source|panorama|LobeEnvironment3D",
+	OnDemand.SOURCES: "source|sources|max_sources|panorama|LobeEnvironment3D",
 	GLTF: "LobeGLTFExtension",
 	OnDemand.CONVERSION: "LobeGLTFExtension|from_standard|to_standard|get_losses_from",
 	OnDemand.PLACES: "LobeProbe3D|own_world_3d|world_3d|fade_time",
@@ -152,6 +155,7 @@ func add_all(file: String) -> void:
 	add(OnDemand.FILTERS, file)
 	add(OnDemand.LIVE, file)
 	add(OnDemand.SKIES, file)
+	add(OnDemand.SOURCES, file)
 	resizing = "%s may change environments" % file
 
 
@@ -196,6 +200,11 @@ func look_at_material(file: String, material: LobeMaterial3D) -> void:
 		add(LAMPS, file)
 	if material.diffuse_light == LobeMaterial3D.DiffuseLight.ENGINE:
 		add(OnDemand.ENGINE_LIGHT, file)
+
+
+func look_at_light(file: String, light: LobeLight) -> void:
+	if light.sources != null:
+		add(OnDemand.SOURCES, file)
 
 
 ## What of the engine may light or occlude materials.
@@ -247,6 +256,8 @@ func look_at_node(file: String, properties: Dictionary, type: StringName) -> voi
 		baked.append([file, properties])
 		return
 	add(OnDemand.LIVE, file)
+	if properties.get("max_sources", LightSettings.MAX_SOURCES) > 0:
+		add(OnDemand.SOURCES, file)
 	environments.append([file, properties])
 	var source: int = properties.get("source", LobeEnvironment3D.Source.AUTOMATIC)
 	var has_panorama := properties.get("panorama") is Texture2D

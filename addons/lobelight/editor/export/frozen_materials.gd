@@ -5,6 +5,8 @@ extends RefCounted
 ## properties, tables and all, then stays out of the export. All materials of a project are frozen,
 ## or none: one that is not needs all of that.
 ##
+## Where lights may have sources, each material has a second shader for these.
+##
 ## A script that names the class of materials, or a property or method of theirs, may change one,
 ## and so may an animation. The light may change as long as every light takes the same shader.
 
@@ -44,6 +46,7 @@ var _naming := RegEx.new()
 var _made: Dictionary[int, FrozenMaterial] = {}
 var _shaders: Dictionary[String, Shader] = {}
 var _count := 0
+var _has_sources := false
 
 
 func _init() -> void:
@@ -94,6 +97,7 @@ func is_frozen() -> bool:
 
 ## [param find] gives, by its path, a resource as it is to be exported.
 func freeze(features: Features, find: Callable) -> void:
+	_has_sources = features.reached.has(OnDemand.SOURCES)
 	for feature in _LIGHTS:
 		if features.reached.has(feature):
 			_refuse("%s asks for %s" % [features.reached[feature], feature])
@@ -215,12 +219,10 @@ func make(material: LobeMaterial3D) -> FrozenMaterial:
 		material.light = LobeLight.make_dark(true)
 	elif material.light.has_box():
 		_refuse("a material shows the light of a box wherever it is")
-	var code := material.get_shader_code().replace(_LIMITED, "")
-	if "#define LOBELIGHT_ENGINE\n" in code:
-		_refuse("the engine lights what is open in the editor")
-	if material.is_antialiased() and ProjectSettings.get_setting(_LIMITER, true):
-		code = code.replace("#include", _LIMITED_AT_RUN_TIME + "#include")
-	frozen.shader = _get_shader(code)
+	frozen.shader = _get_shader(_find_code(material))
+	if _has_sources and frozen.light == null:
+		material.light.sources = PlaceholderTexture2D.new()
+		frozen.shader_for_sources = _get_shader(_find_code(material))
 	var choice := TableChoice.new()
 	choice.choose(material)
 	frozen.width = choice.get_narrowest()
@@ -236,6 +238,15 @@ func make(material: LobeMaterial3D) -> FrozenMaterial:
 			given.erase(name)
 	frozen.parameters = given
 	return frozen
+
+
+func _find_code(material: LobeMaterial3D) -> String:
+	var code := material.get_shader_code().replace(_LIMITED, "")
+	if "#define LOBELIGHT_ENGINE\n" in code:
+		_refuse("the engine lights what is open in the editor")
+	if material.is_antialiased() and ProjectSettings.get_setting(_LIMITER, true):
+		code = code.replace("#include", _LIMITED_AT_RUN_TIME + "#include")
+	return code
 
 
 # The textures that a material's parameters may be, by their ids.

@@ -139,6 +139,7 @@ func _look_at(file: String, value: Variant) -> void:
 		_look_at(file, (resource as LobeMaterial3D).next_pass)
 		_look_at(file, (resource as LobeMaterial3D).light)
 	elif resource is LobeLight:
+		features.look_at_light(file, resource)
 		frozen.look_at_light(file, resource)
 	elif resource is LobeTableSet:
 		# A script may give it to a material.

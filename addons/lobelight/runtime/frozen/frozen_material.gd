@@ -15,6 +15,9 @@ const LightRegistry := preload("../light/light_registry.gd")
 			if given is Texture:
 				given = (given as Texture).get_rid()
 			RenderingServer.material_set_param(_rid, name, given)
+## What it is drawn with in lights that have [member LobeLight.sources]; [code]null[/code] where
+## none of the export may have any.
+@export_storage var shader_for_sources: Shader
 ## The narrowest width of its lobes, see [method LobeLight.apply].
 @export_storage var width := 0.0:
 	set(value):
@@ -31,7 +34,9 @@ var _rid := get_rid()
 
 
 func _init() -> void:
-	LightRegistry.add_material(_rid, _keep_variant)
+	LightRegistry.add_material(_rid, _choose_shader)
+	# When both have been set.
+	_choose_shader.call_deferred()
 
 
 func _notification(what: int) -> void:
@@ -39,6 +44,10 @@ func _notification(what: int) -> void:
 		LightRegistry.remove_material(_rid)
 
 
-# All lights of the export take the same shader.
-func _keep_variant() -> void:
-	pass
+# All lights of the export take the same shader, but for their sources.
+func _choose_shader() -> void:
+	if shader_for_sources == null:
+		return
+	var has_sources := "SOURCES" in LightRegistry.get_defines(_rid)
+	var chosen := shader_for_sources if has_sources else shader
+	RenderingServer.material_set_shader(_rid, chosen.get_rid())

@@ -51,7 +51,7 @@ static func get_defines(material: RID) -> PackedStringArray:
 	_mutex.unlock()
 	if own == null:
 		return defines
-	defines = _defines_of(own)
+	defines = own.get_defines()
 	if _has_own_place(own):
 		defines.insert(0, "PLACED")
 	return defines
@@ -249,12 +249,13 @@ static func is_lit_by_other(world: World3D, owner: int) -> bool:
 
 
 ## Whether materials need other shaders to show the first light of a world, which they get before
-## the next frame.
-static func needs_variants(world: World3D, is_even: bool) -> bool:
+## the next frame. [param has_sources] says whether it will have [member LobeLight.sources].
+static func needs_variants(world: World3D, is_even: bool, has_sources := false) -> bool:
 	if _is_other_world_lit(world):
 		return true
 	_mutex.lock()
-	var found := _placed != null or _defines.is_empty() != is_even
+	var found := _placed != null or ("STRETCHED_LEVELS" in _defines) == is_even
+	found = found or ("SOURCES" in _defines) != has_sources
 	_mutex.unlock()
 	return found
 
@@ -340,7 +341,7 @@ static func _refresh() -> void:
 	if _shown == null:
 		_shown = _get_neutral()
 	var defines: PackedStringArray = (
-		_placed.get_defines() if _placed != null else _defines_of(_shown)
+		_placed.get_defines() if _placed != null else _shown.get_defines()
 	)
 	var has_changed := defines != _defines
 	_defines = defines
@@ -408,10 +409,6 @@ static func _ask_for_variant(material: RID) -> void:
 	# The object may have gone without having said so.
 	if _materials[material].is_valid():
 		_materials[material].call_deferred()
-
-
-static func _defines_of(light: LobeLight) -> PackedStringArray:
-	return PackedStringArray() if light.is_even else PackedStringArray(["STRETCHED_LEVELS"])
 
 
 # Lights that go or fade do so by frames; nothing is called while none does.

@@ -7,6 +7,9 @@ enum Source { AUTOMATIC, SKY, PANORAMA, CAPTURE }
 ## As [enum LobeEnvironment3D.UpdateMode].
 enum UpdateMode { ONCE, WHEN_CHANGED, EVERY_FRAME, TIME_SLICED }
 
+## The most sources that a light can have, see [member LobeLight.sources].
+const MAX_SOURCES := 4
+
 const ViewPlace := preload("view_place.gd")
 
 ## Whose world, viewport and place count.
@@ -18,6 +21,8 @@ var filter := 3
 ## Texels along the side of a face; 0 for what suits the source.
 var size := 0
 var energy := 1.0
+## As [member LobeEnvironment3D.max_sources].
+var max_sources := MAX_SOURCES
 var measure_cost := false
 var update_mode := UpdateMode.WHEN_CHANGED
 ## Whether changes are drawn in slices, as with TIME_SLICED.

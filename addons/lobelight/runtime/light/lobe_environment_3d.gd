@@ -186,6 +186,15 @@ var size := 0:
 		_update_placement()
 		update_configuration_warnings()
 
+## How many compact bright lights, suns and lamps, are taken out of the light at most and drawn as
+## what they are: sharp, without fireflies, and with light that half floats do not hold. Materials
+## look none of them up where the light has none.
+@export_range(0, 4) var max_sources := LightSettings.MAX_SOURCES:
+	set(value):
+		max_sources = clampi(value, 0, LightSettings.MAX_SOURCES)
+		_settings.max_sources = max_sources
+		_mark_stale()
+
 ## Seconds in which a new light takes the place of the one before, when this node becomes the one
 ## that lights its world, or its source changes; 0 changes it at once. While lights fade, materials
 ## draw both.

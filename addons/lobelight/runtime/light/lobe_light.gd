@@ -71,6 +71,15 @@ var cubemap: TextureLayered:
 			if made.create_from_images(faces) == OK:
 				cubemap = made
 		return cubemap
+## Compact bright lights that were taken out of the faces, up to four; [code]null[/code] if there
+## are none. A column is one of them, the rows are
+## [codeblock lang=text]
+## 0    direction in the light's axes, of unit length; deviation in radians, the root of the
+##      variance per axis
+## 1    energy: the integral of the radiance over the solid angle, linear; 0 for no light
+## 2    what the direction of row 0 lacks for being exact, times 1024
+## [/codeblock]
+var sources: Texture2D
 ## From the light to the world; orthonormal.
 var rotation := Basis.IDENTITY
 ## A factor for the radiance.
@@ -185,6 +194,16 @@ func _is_face(face: Image) -> bool:
 	)
 
 
+## The #defines that shaders need for the light, without LOBELIGHT_.
+func get_defines() -> PackedStringArray:
+	var defines: PackedStringArray = []
+	if not is_even:
+		defines.append("STRETCHED_LEVELS")
+	if sources != null:
+		defines.append("SOURCES")
+	return defines
+
+
 ## Whether the light is that of a box.
 func has_box() -> bool:
 	return box_size != Vector3.ZERO
@@ -203,6 +222,7 @@ func at_another_place() -> LobeLight:
 	other.base_energy = base_energy
 	other.coarse = coarse
 	other.cubemap = cubemap
+	other.sources = sources
 	return other
 
 
@@ -225,7 +245,14 @@ func apply(material: RID, width := 0.0) -> void:
 	server.material_set_param(material, &"lobelight_environment", shown.cubemap.get_rid())
 	server.material_set_param(material, &"lobelight_environment_sharpest", shown.get_sharpest())
 	server.material_set_param(material, &"lobelight_environment_level", shown.get_level())
+	apply_sources(material, &"lobelight_sources")
 	apply_placement(material)
+
+
+## The same for the sources, as one of the shader's parameters.
+func apply_sources(material: RID, name: StringName) -> void:
+	if sources != null:
+		RenderingServer.material_set_param(material, name, sources.get_rid())
 
 
 ## The same for what may change from one frame to the next.

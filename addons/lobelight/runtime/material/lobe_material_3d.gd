@@ -86,6 +86,8 @@ const _INCLUDES: Array[ShaderInclude] = [
 	preload("../msdf/msdf.gdshaderinc"),
 	preload("../parallax/parallax.gdshaderinc"),
 	preload("../sheen/sheen.gdshaderinc"),
+	preload("../sources/source_highlights.gdshaderinc"),
+	preload("../sources/sources.gdshaderinc"),
 	preload("../shaders/specular.gdshaderinc"),
 	preload("../triplanar/triplanar.gdshaderinc"),
 	preload("../shaders/vertex.gdshaderinc"),

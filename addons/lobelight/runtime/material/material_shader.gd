@@ -34,6 +34,12 @@ const _LAMP_TEXTURES: Dictionary[String, StringName] = {
 	"TRANSMITTANCE": &"subsurf_scatter_transmittance_texture",
 	"REFRACTION": &"refraction_texture",
 }
+# How sources are reflected, by the lobes' BRDF; all others by the lobes themselves.
+const _SOURCES: Dictionary[String, String] = {
+	"ggx": "SOURCES_GGX",
+	"ward": "SOURCES_WARD",
+	"ward_bounded": "SOURCES_WARD_BOUNDED",
+}
 const _LIMITER := "rendering/anti_aliasing/screen_space_roughness_limiter/enabled"
 ## Lookups of the diffuse light, see diffuse/diffuse.gdshaderinc.
 const DIFFUSE_FETCHES := 6
@@ -70,6 +76,8 @@ static func count_fetches(
 		environment += choice.sheen.lobe_count
 		table += choice.sheen.lobe_count
 		samplers += 1
+	if "SOURCES" in defines:
+		samplers += 1
 	if "PLACED" in defines:
 		samplers += _count_placed_samplers(defines)
 	return {"environment": environment, "table": table, "samplers": samplers}
@@ -77,11 +85,10 @@ static func count_fetches(
 
 # See probes/placed_light.gdshaderinc: the list, and an array of cube maps or four of them.
 static func _count_placed_samplers(defines: PackedStringArray) -> int:
-	if RenderingServer.get_current_rendering_method() == "gl_compatibility":
-		return 5
-	var samplers := 2
+	var is_compatibility := RenderingServer.get_current_rendering_method() == "gl_compatibility"
+	var samplers := 5 if is_compatibility else 2
 	for define in defines:
-		if define.begins_with("ENVIRONMENTS "):
+		if define.begins_with("ENVIRONMENTS ") or define.begins_with("OTHER_SOURCES "):
 			samplers += define.get_slice(" ", 1).to_int()
 	return samplers
 
@@ -174,6 +181,8 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		defines.append_array(_get_diffuse_defines(surface))
 	if surface.is_lit_by_surroundings():
 		defines.append_array(LightRegistry.get_defines(surface.get_rid()))
+		if "SOURCES" in defines:
+			defines.append(_SOURCES.get(choice.brdf, "SOURCES_IN_LOBES"))
 	else:
 		defines.append("LAMPS_ONLY")
 	if choice.coat != null:

@@ -32,6 +32,8 @@ var coat: LobeTable
 ## The sheen's lobes, or [code]null[/code].
 var sheen: LobeTable
 var is_isotropic := true
+## The name of the lobes' BRDF.
+var brdf := ""
 var lobe_count := 1
 ## Whether the lobes come from a set, which goes with roughness and anisotropy.
 var is_from_set := false
@@ -199,6 +201,7 @@ func _choose_from(tables: LobeTableSet, surface: LobeBaseMaterial3D) -> void:
 	if _ignores_anisotropy:
 		anisotropy = 0.0
 	lobe_count = tables.lobe_count
+	brdf = tables.brdf
 	is_isotropic = anisotropy == 0.0
 	var can_vary := WidthsTexture.find_problem(tables.widths, is_isotropic).is_empty()
 	if surface.varies() and can_vary:
@@ -244,6 +247,7 @@ func _choose_table(surface: LobeBaseMaterial3D) -> void:
 			_stand_in = LobeTable.make_single_lobe()
 		table = _stand_in
 	lobe_count = table.lobe_count
+	brdf = table.brdf
 	is_isotropic = table.is_isotropic()
 	var godots := Widths.to_roughness(table.alpha)
 	roughness = godots.x

@@ -12,7 +12,7 @@ extends RefCounted
 ## 3       half the box's size; w: 1 / blend distance
 ## 4       from where the light is seen to the middle of the box, along the light's axes; w: layer
 ## 5       bias of the weight, energy, s and k of lobelight_level
-## 6       of stretched levels: the rest of s and of k
+## 6       of stretched levels: the rest of s and of k; w: where its sources are, 0 if it has none
 ## 7       the middle of the box in the world; w: the square of how far the light reaches from it,
 ##         negative where lights of a lower priority begin
 ## [/codeblock]
@@ -83,14 +83,16 @@ func _begin(columns: Array) -> void:
 		_numbers[4 * column + 1] = _rows
 
 
-## [param shift] is added to the light's levels; [param bias] is its weight inside its box.
+## [param shift] is added to the light's levels; [param bias] is its weight inside its box; [param
+## sources] is 1 for those in [code]lobelight_sources[/code], 2 for the first of the others.
 func add(
 	light: LobeLight,
 	layer: int,
 	shift: float,
 	bias: float,
 	starts_priority: bool,
-	energy := light.energy
+	energy := light.energy,
+	sources := 0
 ) -> void:
 	var half := _EVERYWHERE * Vector3.ONE
 	var slope := 0.0
@@ -117,7 +119,7 @@ func add(
 		Vector4(half.x, half.y, half.z, slope),
 		Vector4(to_middle.x, to_middle.y, to_middle.z, layer),
 		Vector4(minf(bias, 1.0), energy, sharpest.x, level.x + shift),
-		Vector4(sharpest.y, level.y, level.z, 0.0),
+		Vector4(sharpest.y, level.y, level.z, sources),
 		Vector4(middle.x, middle.y, middle.z, -reach if starts_priority else reach),
 	]
 	_numbers.resize(4 * WIDTH * (_rows + _TEXELS))

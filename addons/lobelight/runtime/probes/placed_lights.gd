@@ -14,6 +14,8 @@ const WorldCameras := preload("world_cameras.gd")
 
 ## Worlds that can be told from one another; those beyond show the first one's environment.
 const MAX_WORLDS := 4
+# Lights with sources beside the one that all materials have.
+const _MAX_OTHER_SOURCES := 3
 
 var _list := LightList.new()
 var _store: LightStore = LightStore.make()
@@ -22,6 +24,8 @@ var _worlds: Dictionary[RID, LightWorld] = {}
 var _neutral: LobeLight
 var _primary: LobeLight
 var _is_stretched := false
+# The lights that have sources, the primary one or null first.
+var _with_sources: Array[LobeLight] = []
 var _awaits_frame := false
 # What the materials have.
 var _given: Array[RID] = []
@@ -80,6 +84,10 @@ func show(worlds: Dictionary[RID, LightWorld], neutral: LobeLight) -> void:
 	for light: LobeLight in locals.values() + others + [_primary]:
 		_is_stretched = _is_stretched or not light.is_even
 	_store.hold(locals, others)
+	_with_sources = [_primary if _primary.sources != null else null]
+	for light in others:
+		if light.sources != null and _with_sources.size() <= _MAX_OTHER_SOURCES:
+			_with_sources.append(light)
 	_cameras.tell(lit)
 	mark_moved()
 	# What is drawn before the next frame begins would show the list as it was.
@@ -105,7 +113,8 @@ func write() -> void:
 			_write_world(world, true)
 	# Where nothing gives light, the first world's does, but for its rooms.
 	_list.begin_unlit()
-	_list.add(_primary, LightList.ENVIRONMENT, 0.0, 1.0, true)
+	var sources := _with_sources.find(_primary) + 1 if _primary.sources != null else 0
+	_list.add(_primary, LightList.ENVIRONMENT, 0.0, 1.0, true, _primary.energy, sources)
 	_list.end()
 
 
@@ -115,6 +124,10 @@ func get_defines() -> PackedStringArray:
 	defines.append_array(_store.get_defines())
 	if _is_stretched:
 		defines.append("STRETCHED_LEVELS")
+	if _with_sources.any(func(light: LobeLight) -> bool: return light != null):
+		defines.append("SOURCES")
+		if _with_sources.size() > 1:
+			defines.append("OTHER_SOURCES %d" % (_with_sources.size() - 1))
 	return defines
 
 
@@ -131,6 +144,9 @@ func apply(material: RID) -> void:
 	var server := RenderingServer
 	server.material_set_param(material, &"lobelight_environment", _primary.cubemap.get_rid())
 	server.material_set_param(material, &"lobelight_lights", _list.texture.get_rid())
+	for i in _with_sources.size():
+		if _with_sources[i] != null:
+			_with_sources[i].apply_sources(material, _name_of_sources(i))
 	_store.apply(material)
 
 
@@ -148,7 +164,15 @@ func get_camera_bits(scenario: RID, captured: bool) -> int:
 func _list_textures() -> Array[RID]:
 	var textures: Array[RID] = [_primary.cubemap.get_rid(), _list.texture.get_rid()]
 	textures.append_array(_store.get_textures())
+	for light in _with_sources:
+		textures.append(light.sources.get_rid() if light != null else RID())
 	return textures
+
+
+static func _name_of_sources(number: int) -> StringName:
+	return (
+		&"lobelight_sources" if number == 0 else StringName("lobelight_sources_%d" % (number - 1))
+	)
 
 
 func _on_frame_pre_draw() -> void:
@@ -183,7 +207,9 @@ func _write_world(world: LightWorld, captured: bool) -> void:
 		var light := lights[i]
 		if _layer_of(light) == LightStore.NO_PLACE:
 			light = _primary
-		_list.add(light, _layer_of(light), 0.0, 1.0 if is_last else world.shares[i], true)
+		var share := 1.0 if is_last else world.shares[i]
+		var sources := 0 if light.sources == null else _with_sources.find(light) + 1
+		_list.add(light, _layer_of(light), 0.0, share, true, light.energy, sources)
 
 
 func _layer_of(light: LobeLight) -> int:
