@@ -14,6 +14,7 @@ const OPTIONS: PackedStringArray = [
 	"coverage",
 	"views",
 	"bias",
+	"fis",
 	"timing-rounds",
 	"timing-size",
 	"out",
@@ -97,6 +98,9 @@ func _read_stage(stage: ComparisonStage) -> void:
 	if stage.filter not in ComparisonStage.FILTERS:
 		_arguments.fail("--filter is %s." % " or ".join(ComparisonStage.FILTERS.keys()))
 	stage.fis_bias = _arguments.numbers("bias", 1, [stage.fis_bias])[0]
+	stage.fis_form = _arguments.text("fis", stage.fis_form)
+	if stage.fis_form not in ComparisonStage.FIS_FORMS:
+		_arguments.fail("--fis is %s." % " or ".join(ComparisonStage.FIS_FORMS))
 	stage.toral_coverage = _arguments.numbers("coverage", 1, [stage.toral_coverage])[0]
 	if not (stage.toral_coverage > 0.0 and stage.toral_coverage < 1.0):
 		_arguments.fail("--coverage must be between 0 and 1, not %s." % _arguments.text("coverage"))

@@ -26,6 +26,7 @@ const RIVALS: PackedStringArray = [
 	"asg",
 	"closed8",
 	"majoraxis8",
+	"majoraxis32",
 	"splitsum",
 	"stock",
 ]
@@ -68,8 +69,8 @@ static func make(method: String, brdf: String, alpha: PackedFloat64Array) -> Com
 		made = Asg.new()
 	elif method == "closed8":
 		made = ClosedForm.new()
-	elif method == "majoraxis8":
-		made = MajorAxis.new()
+	elif method.begins_with("majoraxis"):
+		made = MajorAxis.make(_number_after("majoraxis", method))
 	elif method == "splitsum":
 		made = SplitSum.new()
 	elif method == "stock":

@@ -14,6 +14,10 @@ const FILTERS: Dictionary[String, LobeEnvironment3D.Filter] = {
 	"disc": LobeEnvironment3D.Filter.DISC,
 }
 
+## The best kernels and samplers there are; the chapter of 2007; kernels of the density's integral
+## for GGX too. See the method.
+const FIS_FORMS: PackedStringArray = ["best", "published", "integral"]
+
 const _MEASURED_UPDATES := 3
 # The times of the GPU come some frames late.
 const _FRAMES_LATE := 4
@@ -40,6 +44,8 @@ var toral_views := Vector2i.ZERO
 ## "Real-time Shading with Filtered Importance Sampling", take four times the solid angle, which
 ## is 1.
 var fis_bias := 0.0
+## Of fis: which publications it follows, one of [constant FIS_FORMS].
+var fis_form := "best"
 
 var _environment: LobeEnvironment3D
 # Worlds with the room's walls, one for each capture.

@@ -118,6 +118,8 @@ compare_refuses "a map wider than textures" "20000_wide.hdr: has 20000 texels al
   "${good_compare[@]}" --methods gmm4 --env "$root/tests/data/field/20000_wide.hdr"
 compare_refuses "an empty file" "empty.exr" "${good_compare[@]}" --methods gmm4 --env "$work/empty.exr"
 compare_refuses "a folder for an environment" "$work" "${good_compare[@]}" --methods gmm4 --env "$work"
+compare_refuses "an unknown form of importance sampling" "--fis is best" \
+  "${good_compare[@]}" --methods fis8 --fis newest --env "$environment"
 compare_refuses "an unknown method" "magic8" "${good_compare[@]}" --methods magic8 --env "$environment"
 compare_refuses "a method without lobes" "gmm0" "${good_compare[@]}" --methods gmm0 --env "$environment"
 compare_refuses "a method with a thousand lobes" "1000" \
@@ -163,6 +165,7 @@ refuses "stability, an unknown group" "no-such-group" stability --group no-such-
 refuses "stability, JSON in a missing folder" "missing/cases.json" stability --quick --json missing/cases.json
 refuses "accuracy, a map that is not there" "no such map" accuracy --quick --maps absent.exr
 refuses "accuracy, a size out of range" "--size" accuracy --size 4
+refuses "accuracy, no time" "--minutes" accuracy --minutes 0
 refuses "accuracy, an unknown option" "--frames" accuracy --frames 3
 refuses "report, an unknown renderer" "vulkan9" report --renderers mobile,vulkan9
 refuses "report, an unknown method" "gmm9" report --methods gmm8,gmm9

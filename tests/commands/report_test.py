@@ -111,6 +111,21 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual((rival.method, ours.method), ("fis40", "gmm16"))
         self.assertEqual(dict(verdict["best"])[float("inf")].method, "fis40")
 
+    def test_a_lead_that_cannot_be_seen_is_none(self):
+        for lead, winner in ((0.9, "gmm16"), (1.1, "fis40")):
+            psnr = 41.0 + lead * cases.LEAST_LEAD
+            (verdict,) = analysis.verdicts([entry(ISOTROPIC, {**USUAL, "fis40": (psnr, 40, 3.3)})])
+            self.assertEqual(dict(verdict["best"])[float("inf")].method, winner)
+            self.assertEqual("fis40" in [rival.method for rival, _ in verdict["rivals"]], winner == "fis40")
+
+    def test_budgets_of_fetches(self):
+        """Whatever it takes: fewer fetches are within more; what is not drawn by fetches takes no part."""
+        (verdict,) = analysis.verdicts([entry(ISOTROPIC, {**USUAL, "line8": (40.5, 8, 9.0)})])
+        best = {budget: point and point.method for budget, point in verdict["best_by_fetches"]}
+        self.assertEqual([best[n] for n in (1, 3, 4, 8, 16, 40)], ["splitsum", "splitsum", "gmm4", "line8", "gmm16", "gmm16"])
+        count = analysis.tally([verdict], "best_by_fetches")
+        self.assertEqual(count, {"ours": len(cases.FETCH_BUDGETS) - 3, "rivals": 3, "none": 0})
+
     def test_other_maps_take_the_times_of_the_timed_one(self):
         untimed = {name: (own[0] - 5.0, own[1], None) for name, own in USUAL.items()}
         entries = [entry(ISOTROPIC, USUAL), entry(ISOTROPIC, untimed, map="forest", timing_rounds=0)]

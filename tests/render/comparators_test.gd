@@ -22,9 +22,12 @@ const MATERIALS := [
 # How far the sum of the weights of 40 points may be from the albedo, at angles up to 63 degrees.
 const FURNACE_BIAS := 0.03
 const TABLE_FETCHES: Dictionary[String, int] = {
-	"toral8": 8, "toral16": 16, "majoraxis8": 1, "splitsum": 1, "stock": 1
+	"toral8": 8, "toral16": 16, "majoraxis8": 1, "majoraxis32": 1, "splitsum": 1, "stock": 1
 }
-const SKEWED_MATERIALS := [["ward", 0.1, 0.4], ["ward_bounded", 0.15, 0.3], ["ggx", 0.1, 0.4]]
+# Wide enough for GGX's bounded cap to leave much out.
+const CONVERGING_MATERIALS := [
+	["ward", 0.1, 0.4], ["ward_bounded", 0.15, 0.3], ["ggx", 0.1, 0.4], ["ggx", 0.5, 0.5]
+]
 # Samples of a converged picture, and how many of them one shader takes.
 const MANY := 1024
 const MANY_OF_GGX := 4096
@@ -95,26 +98,65 @@ func test_fis_weights_and_levels(
 	brdf: String, x: float, y: float, _test_parameters := MATERIALS
 ) -> void:
 	# In a cube map whose levels hold 1 + their number, a sample shows its level.
-	var method := _fis(brdf, x, y, 8)
 	_bench.stage._lights["box"] = ComparatorKit.level_light(32, "box")
-	var pixels := await _bench.drawn(method)
-	for normal in NORMALS:
-		var exact := ComparatorKit.exact_normal(normal)
-		var frame := ComparatorKit.frame(exact, x == y)
-		var o := frame.transposed() * Vector3.BACK
-		var expected := 0.0
-		var lowest := INF
-		for k in 8:
-			var h := Oracle.sample(brdf, Vector2(x, y), Fis.hammersley(k, 8), o)
-			var direction := (frame * (2.0 * o.dot(h) * h - o)).abs()
-			var m := direction[direction.max_axis_index()]
-			var texel := 4.0 / (32.0 * 32.0) * pow(m, 3.0)
-			var solid_angle := 1.0 / (8.0 * Oracle.density(brdf, Vector2(x, y), h, o))
-			var level := clampf(0.5 * log(solid_angle / texel) / log(2.0), 0.0, 5.0)
-			expected += Oracle.weight(brdf, Vector2(x, y), h, o) * (1.0 + level) / 8.0
-			lowest = minf(lowest, level)
-		assert_float(lowest).is_less(4.0)
-		_assert_close(ComparatorKit.value_at(pixels, normal), expected, 0.01, "normal %s" % exact)
+	for form in ComparisonStage.FIS_FORMS:
+		_bench.stage.fis_form = form
+		var pixels := await _bench.drawn(_fis(brdf, x, y, 8))
+		var bounded := form != "published"
+		for normal in NORMALS:
+			var exact := ComparatorKit.exact_normal(normal)
+			var frame := ComparatorKit.frame(exact, x == y)
+			var o := frame.transposed() * Vector3.BACK
+			var expected := 0.0
+			var lowest := INF
+			for k in 8:
+				var u := Fis.hammersley(k, 8)
+				var h := Oracle.sample(brdf, Vector2(x, y), u, o, bounded)
+				var direction := (frame * (2.0 * o.dot(h) * h - o)).abs()
+				var m := direction[direction.max_axis_index()]
+				var texel := 4.0 / (32.0 * 32.0) * pow(m, 3.0)
+				var density := Oracle.density(brdf, Vector2(x, y), h, o, bounded)
+				var solid_angle := _kernel(form, brdf, Vector2(x, y), h, o) / density
+				var level := clampf(0.5 * log(solid_angle / texel) / log(2.0), 0.0, 5.0)
+				expected += Oracle.weight(brdf, Vector2(x, y), h, o, bounded) * (1.0 + level) / 8.0
+				lowest = minf(lowest, level)
+			assert_float(lowest).is_less(4.0)
+			var got := ComparatorKit.value_at(pixels, normal)
+			_assert_close(got, expected, 0.01, "%s, normal %s" % [form, exact])
+
+
+func test_kernels_hold_their_share_of_the_density() -> void:
+	# Of e^-t² / pi, by summing it up over the disc.
+	for square: float in [0.0, 0.1, 1.0, 3.0, 6.0]:
+		for share: float in [1.0 / 8.0, 1.0 / 40.0, 1.0 / 1024.0]:
+			var radius := sqrt(Fis.kernel_square(square, share))
+			var sum := 0.0
+			for ring in 64:
+				var r := radius * (ring + 0.5) / 64.0
+				for step in 64:
+					var t := Vector2(sqrt(square), 0.0) + r * Vector2.from_angle(TAU * step / 64.0)
+					sum += exp(-t.length_squared()) / PI * r * radius / 64.0 * TAU / 64.0
+			assert_float(sum / share).is_equal_approx(1.0, 1e-3)
+
+
+func test_bounded_samples_reflect_upwards_more_often() -> void:
+	# The density is one of the whole sphere: its mean inverse over the samples, of those that go
+	# upwards, is what they cover of the hemisphere, which is all of it.
+	var alpha := Vector2(0.6, 0.8)
+	var count := 4096
+	for o: Vector3 in [Vector3(0.0, 0.0, 1.0), Vector3(0.5, 0.2, 0.8), Vector3(-0.3, 0.9, 0.4)]:
+		var kept := Vector2i.ZERO
+		var covered := 0.0
+		for k in count:
+			for bounded: bool in [false, true]:
+				var u := Fis.hammersley(k, count)
+				var h := Oracle.sample("ggx", alpha, u, o.normalized(), bounded)
+				var i := 2.0 * o.normalized().dot(h) * h - o.normalized()
+				kept[int(bounded)] += int(i.z > 0.0)
+				if bounded and i.z > 0.0:
+					covered += 1.0 / Oracle.density("ggx", alpha, h, o.normalized(), true) / count
+		assert_int(kept.y).is_greater(kept.x)
+		assert_float(covered / TAU).is_equal_approx(1.0, 0.01)
 
 
 func test_fis_on_a_wider_pyramid_blurs_as_on_means_of_two_by_two() -> void:
@@ -126,7 +168,7 @@ func test_fis_on_a_wider_pyramid_blurs_as_on_means_of_two_by_two() -> void:
 
 
 func test_fis_converges_to_the_reference(
-	brdf: String, x: float, y: float, _test_parameters := SKEWED_MATERIALS
+	brdf: String, x: float, y: float, _test_parameters := CONVERGING_MATERIALS
 ) -> void:
 	var expected := _bench.reference(brdf, x, y)
 	_bench.light_lamps()
@@ -264,6 +306,36 @@ func _fis(brdf: String, x: float, y: float, samples: int) -> Fis:
 	method.brdf = brdf
 	method.alpha = [x, y]
 	return method
+
+
+# A sample's kernel, times the density there: one of eight where the density is taken for constant.
+func _kernel(form: String, brdf: String, alpha: Vector2, h: Vector3, o: Vector3) -> float:
+	var share := 1.0 / 8.0
+	if form == "published" or (form == "best" and brdf == "ggx"):
+		return share
+	if brdf != "ggx":
+		var square := (Vector2(h.x, h.y) / (alpha * h.z)).length_squared()
+		return Fis.kernel_square(square, share) * exp(-square)
+	# Samples are spread evenly over a cap of the sphere about the stretched view v, whose normals'
+	# slopes about v are its stereographic picture: a disc there is a cap's, whose share is known.
+	var v := Oracle.stretched(alpha, o)
+	var half_way := Vector3(h.x / alpha.x, h.y / alpha.y, h.z).normalized()
+	var away := tan(v.angle_to(half_way))
+	var angle := acos(1.0 - (1.0 + Oracle.lower_end(alpha, o)) * share)
+	# By bisection, the cap whose picture's middle is there.
+	var low := 0.0
+	var high := PI - angle
+	for step in 50:
+		var middle := 0.5 * (low + high)
+		var ends := Vector2(tan(0.5 * (middle - angle)), tan(0.5 * (middle + angle)))
+		if 0.5 * (ends.x + ends.y) < away:
+			low = middle
+		else:
+			high = middle
+	var radius := 0.5 * (tan(0.5 * (low + angle)) - tan(0.5 * (low - angle)))
+	# Over the plane, 1 / (pi (1 + away²)²) times the sphere's area over the cap's.
+	var density := 2.0 / (1.0 + Oracle.lower_end(alpha, o)) / PI / pow(1.0 + away * away, 2.0)
+	return PI * radius * radius * density
 
 
 func _toral(table: LobeTable) -> Toral:

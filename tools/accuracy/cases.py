@@ -1,6 +1,7 @@
 """What `./dev accuracy` measures: cases, each one material on one map drawn by several methods.
 
-A part is a question; the same material on the same map in two parts is one case that both read.
+A part is a question; the same material on the same map in two parts is one case that both read. GPU times hardly depend on
+the map: they are taken on one.
 """
 
 import dataclasses
@@ -10,6 +11,10 @@ from runs import SYNTHETIC
 
 REFERENCE = "reference"
 RIVAL = "fis40"
+# Lobes of a table, of a line without one, and as many as a material draws by itself.
+OURS = ("gmm", "line", "auto")
+AUTOMATIC = "auto"
+TIMED_MAP = "hall"
 MAPS = ("hall", "sunset", "forest", SYNTHETIC)
 # Those of Töral 2015, and one more.
 ISOTROPIC_WIDTHS = (0.01, 0.02, 0.05, 0.1, 0.15, 0.2)
@@ -19,14 +24,17 @@ BRDFS = ("ward", "ggx")
 RATIO_MAPS = ("hall", "forest", SYNTHETIC)
 # One narrow width, the other wider and wider; 1:100 has no room for that below 0.5.
 RATIO_WIDTHS = {ratio: (0.01, 0.01 * ratio) for ratio in (1, 2, 5, 10, 20, 50)} | {100: (0.005, 0.5)}
-RATIO_METHODS = ("gmm4", "gmm8", "gmm16", "gmm24", "gmm32", RIVAL)
+RATIO_METHODS = ("gmm4", "gmm8", "gmm16", "gmm24", "gmm32", "line8", "line16", "line24", "line32", AUTOMATIC, RIVAL)
 GRID_MAPS = ("hall", "forest", SYNTHETIC)
 # Here the other half of the grid is measured too.
 WHOLE_GRID_MAP = "hall"
 GRID_WIDTHS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5)
-GRID_METHODS = ("gmm8", "gmm16", RIVAL)
+GRID_METHODS = ("gmm8", "gmm16", "line16", AUTOMATIC, RIVAL)
 MOST_FETCHES = 16
-PARTS = ("maps", "ratios", "grid")
+# What is furthest from the reference: strong anisotropy, and lobes as wide as they get.
+LEADS = (HARD, (0.01, 0.5), (0.005, 0.5), (0.5, 0.5))
+LEAD_METHODS = ("gmm8", "gmm16", "gmm24", "line16", "line24", "line32", AUTOMATIC, RIVAL)
+PARTS = ("maps", "leads", "ratios", "grid")
 
 
 @dataclasses.dataclass
@@ -59,16 +67,26 @@ class Plan:
         case.timed = case.timed or timed
 
     def cases(self):
-        """Map by map, so that each map's pyramid is made once."""
+        """The part "leads" before the others, and map by map, so that a pyramid serves many cases."""
         maps = list(dict.fromkeys(case.map for case in self._cases.values()))
-        return sorted(self._cases.values(), key=lambda case: (maps.index(case.map), case.brdf != "ward", case.alpha))
+
+        def rank(case):
+            return (case.alpha not in LEADS, maps.index(case.map), case.brdf != "ward", case.alpha)
+
+        return sorted(self._cases.values(), key=rank)
+
+
+def is_ours(method):
+    return method.startswith(OURS)
 
 
 def order(method):
-    """gmm by their lobes, then the rival, then the reference."""
+    """gmm by their lobes, lines by theirs, the automatic choice, then the rival, then the reference."""
     if method.startswith("gmm"):
         return (0, int(method[3:]))
-    return (1, 0) if method == RIVAL else (2, 0)
+    if method.startswith("line"):
+        return (1, int(method[4:]))
+    return (("auto", RIVAL, REFERENCE).index(method) + 2, 0)
 
 
 def grid_widths(map_name):
@@ -87,14 +105,19 @@ def full(parts, given_maps):
                     plan.add(map_name, brdf, (width, width), ["gmm8", REFERENCE], False)
                 plan.add(map_name, brdf, ANISOTROPIC, ["gmm8", REFERENCE], False)
                 plan.add(map_name, brdf, HARD, ["gmm8", "gmm16", REFERENCE], False)
+    if "leads" in parts:
+        for map_name in (*MAPS, *given_maps):
+            for brdf in BRDFS:
+                for alpha in LEADS:
+                    plan.add(map_name, brdf, alpha, [*LEAD_METHODS, REFERENCE], map_name == TIMED_MAP)
     if "ratios" in parts:
         for map_name in RATIO_MAPS:
             for alpha in RATIO_WIDTHS.values():
-                plan.add(map_name, "ward", alpha, [*RATIO_METHODS, REFERENCE], True)
+                plan.add(map_name, "ward", alpha, [*RATIO_METHODS, REFERENCE], map_name == TIMED_MAP)
     if "grid" in parts:
         for map_name in GRID_MAPS:
             for alpha in grid_widths(map_name):
-                plan.add(map_name, "ward", alpha, [*GRID_METHODS, REFERENCE], True)
+                plan.add(map_name, "ward", alpha, [*GRID_METHODS, REFERENCE], map_name == TIMED_MAP)
     return plan.cases()
 
 
@@ -105,6 +128,9 @@ def quick(parts, given_maps):
         for map_name in ("hall", SYNTHETIC, *given_maps):
             for alpha in ((0.05, 0.05), ANISOTROPIC):
                 plan.add(map_name, "ward", alpha, ["gmm8", REFERENCE], False)
+    if "leads" in parts:
+        for map_name in (TIMED_MAP, *given_maps):
+            plan.add(map_name, "ggx", HARD, ["gmm8", "line16", AUTOMATIC, RIVAL, REFERENCE], map_name == TIMED_MAP)
     if "ratios" in parts:
         for ratio in (1, 20):
             plan.add("hall", "ward", RATIO_WIDTHS[ratio], ["gmm4", "gmm8", "gmm16", RIVAL, REFERENCE], True)

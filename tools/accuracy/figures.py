@@ -19,7 +19,7 @@ def save(figure, path):
 
 
 def ratios(entries, path):
-    """PSNR against fetches: a line for each ratio, a cross for the rival; a panel for each map."""
+    """PSNR against fetches: for each ratio a line of tables and a dashed one of lines, a cross for the rival; a panel for each map."""
     own = [e for e in entries if tuple(e["alpha"]) in cases.RATIO_WIDTHS.values() and "gmm4" in e["methods"]]
     maps = list(dict.fromkeys(entry["map"] for entry in own))
     figure, axes = plt.subplots(1, len(maps), figsize=(4.2 * len(maps), 3.8), squeeze=False, sharey=True, layout="constrained")
@@ -29,13 +29,15 @@ def ratios(entries, path):
                 if (entry["map"], tuple(entry["alpha"])) != (map_name, alpha):
                     continue
                 colour = plt.cm.viridis(place / len(cases.RATIO_WIDTHS))
-                lobes = sorted((f["fetches"], f["psnr"]) for m, f in entry["methods"].items() if m.startswith("gmm"))
-                axis.plot(*zip(*lobes), "o-", color=colour, markersize=3.5, label=f"1:{ratio}")
+                for family, style, label in (("gmm", "o-", f"1:{ratio}"), ("line", "d--", None)):
+                    lobes = sorted((f["fetches"], f["psnr"]) for m, f in entry["methods"].items() if m.startswith(family))
+                    if lobes:
+                        axis.plot(*zip(*lobes), style, color=colour, markersize=3.5, linewidth=1, label=label)
                 axis.plot([40], [entry["methods"][cases.RIVAL]["psnr"]], "x", color=colour)
         axis.set_xscale("log", base=2)
         axis.set_xticks([4, 8, 16, 24, 32, 40], ["4", "8", "16", "24", "32", "40"])
         axis.grid(alpha=0.3)
-        axis.set_xlabel(f"fetches of the map (crosses: {cases.RIVAL})")
+        axis.set_xlabel(f"fetches of the map (dashed: lines; crosses: {cases.RIVAL})")
         axis.set_title(map_name)
     axes[0][0].set_ylabel("PSNR, dB")
     axes[0][-1].legend(fontsize=7)

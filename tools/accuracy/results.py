@@ -1,7 +1,8 @@
 """results.json of `./dev accuracy`: what was measured, and whether it is still true.
 
 {"renderer", "driver", "cases": [{"map", "brdf", "alpha", "size", "samples", "renderer", "timing_rounds", "key",
-"methods": {METHOD: {"fetches", "probes", "table_fetches", "psnr" in dB, "flip", "relative_rmse", "gpu_ms", "gpu_ratio"}}}]}
+"methods": {METHOD: {"fetches", "probes", "table_fetches", "psnr" in dB, "flip", "relative_rmse", "gpu_ms", "gpu_ratio"}},
+"unavailable": {METHOD: why it was not drawn}}]}
 
 gpu_ratio is the median over the rounds of a method's GPU time over that of fis40 in the same round; null where it was not
 measured. A case counts as measured if its key, a hash of the sources that draw it and of the map, is today's.
@@ -32,17 +33,17 @@ class Results:
             raise ValueError(f"{path}: not the results of an earlier run ({error}); remove it.") from error
 
     def entry(self, conditions, methods):
-        """What was measured under these conditions, if it has all these methods; otherwise None."""
+        """What was measured under these conditions, if all these methods were tried; otherwise None."""
         for entry in self._kept:
             same = all(entry.get(name) == value for name, value in conditions.items())
-            if same and set(methods) <= entry["methods"].keys():
+            if same and set(methods) <= entry["methods"].keys() | entry.get("unavailable", {}).keys():
                 return entry
         return None
 
-    def add(self, conditions, methods):
+    def add(self, conditions, methods, unavailable):
         identity = ("map", "brdf", "alpha")
         self._kept = [e for e in self._kept if any(e[name] != conditions[name] for name in identity)]
-        self._kept.append({**conditions, "methods": methods})
+        self._kept.append({**conditions, "methods": methods, "unavailable": unavailable})
 
     def save(self, renderer, entries=None):
         """Writes everything, or only the entries given."""
@@ -50,6 +51,20 @@ class Results:
         temporary = self.path.with_name("." + self.path.name)
         temporary.write_text(json.dumps(value, indent=1) + "\n", encoding="utf-8")
         temporary.replace(self.path)
+
+
+def with_times(entries):
+    """The entries, those without times with the times of the same material where it has been timed."""
+    timed = {(e["brdf"], tuple(e["alpha"])): e["methods"] for e in entries if e["timing_rounds"]}
+    found = []
+    for entry in entries:
+        other = timed.get((entry["brdf"], tuple(entry["alpha"])), {})
+        methods = {
+            name: own if own["gpu_ratio"] is not None else {**own, "gpu_ratio": other.get(name, {}).get("gpu_ratio")}
+            for name, own in entry["methods"].items()
+        }
+        found.append({**entry, "methods": methods})
+    return found
 
 
 def write_csv(path, entries):

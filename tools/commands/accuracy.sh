@@ -10,8 +10,10 @@ usage: ./dev accuracy [--quick] [--maps FILE,FILE…] [OPTIONS]
 --maps F,F…      these maps too (.exr or .hdr), in the part maps
 --only PART      measures one part; what DIR has of the others stays in the report
                  maps: eight lobes on every map, widths 0.01 to 0.2
+                 leads: ratios of 1:20, 1:50 and 1:100 and the widest lobes, on every map, against fis40
                  ratios: error against fetches, ratios of the widths from 1 to 100
                  grid: widths from 0.01 to 0.5, at most 16 fetches against fis40
+--minutes N      measures no longer than that, the part leads first, and writes the report of what there is
 --renderer R     mobile (default), gl_compatibility or forward_plus
 --size N         pixels along the side (default 96)
 --samples N      of the reference, a pixel (default 640)

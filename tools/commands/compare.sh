@@ -8,12 +8,13 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
        ./dev compare --room ROOM.json --brdf B --alpha AX,AY --methods M,M,… --out DIR [OPTIONS]
 
 --methods       gmm<lobes> (gmm1, gmm2, gmm4, gmm8 …); gmm<lobes>r: with refined lobes
-                fis8 fis16 fis40: filtered importance sampling on 2x2 means; fis40g: on the pyramid of gmm
+                fis8 fis16 fis40: filtered importance sampling on 2x2 means, in the best form (--fis); fis40g: on the
+                pyramid of gmm
                 toral8 toral16: the thesis as written
                 allfreq1 allfreq8: spherical Gaussians for the normals' density, warped (Wang et al. 2009)
                 asg: one anisotropic spherical Gaussian (Xu et al. 2013), drawn as eight round ones
                 closed8: eight lobes in closed form, without a table
-                majoraxis8: samples along the major axis of a prefiltered map (Cocco, Zanni and Chermain 2024)
+                majoraxis8 majoraxis32: samples along the major axis of a prefiltered map (Cocco, Zanni and Chermain 2024)
                 splitsum: a map filtered for this very width times the albedo; with a bent normal if anisotropic
                 stock: StandardMaterial3D under the engine's own sky; always GGX, to 10:1; see bake/comparators/stock.gd
                 reference: with itself
@@ -26,6 +27,8 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
 --coverage C    of toral: the share of a lobe that its texels cover (default 0.47)
 --views T,P     of toral: fitted views, elevations and azimuths (default 64,1 or 64,32)
 --bias B        of fis: added to the published level (default 0)
+--fis F         best (default): kernels by the density's integral for Ward (Tokuyoshi 2016), bounded visible normals for GGX
+                (Tokuyoshi and Eto 2024); published: Colbert and Krivanek 2007; integral: those kernels for GGX too
 --json FILE     writes metrics.json there too
 
 --room          the sphere stands in a box whose walls emit the radiance of pictures. ROOM.json, in metres, the box's middle

@@ -92,14 +92,28 @@ def pareto(found):
     return front
 
 
-def best_within(found, budget):
-    """The most accurate point within a time, of equals the faster one; None if there is none."""
-    affordable = [p for p in found if p.time is not None and p.time <= budget]
-    return max(affordable, key=lambda p: (p.psnr, -p.time), default=None)
+def best_within(found, budget, cost=lambda point: point.time):
+    """The most accurate point within a time, of equals the faster one; None if there is none. `cost` may be another than
+    the time; None: the point takes no part."""
+    affordable = [p for p in found if cost(p) is not None and cost(p) <= budget]
+    return max(affordable, key=lambda p: (p.psnr, -cost(p)), default=None)
+
+
+def leader(found, budget, cost=lambda point: point.time):
+    """The best within a budget; ours where the rival's lead is too small to be seen (cases.LEAST_LEAD)."""
+    best = best_within(found, budget, cost)
+    own = best_within([p for p in found if cases.is_ours(p.method)], budget, cost)
+    return own if own and best.psnr - own.psnr < cases.LEAST_LEAD else best
+
+
+def fetches_of(point):
+    """None for what fetches nothing that is counted."""
+    return point.fetches or None
 
 
 def verdict(entries, place):
-    """{"place", "front": [method], "best": [(budget, Point | None)], "rivals": [(rival, ours)] on the front}.
+    """{"place", "points", "front": [method], "best" and "best_by_fetches": [(budget, Point | None)],
+    "rivals": [(rival, ours)] on the front}.
 
     A rival is on the list where nothing of ours is as accurate in its time; `ours` is our most accurate one within that
     time, or None.
@@ -107,12 +121,13 @@ def verdict(entries, place):
     found = points(entries, place)
     front = pareto(found)
     own = [p for p in found if cases.is_ours(p.method)]
-    rivals = [(p, best_within(own, p.time)) for p in front if not cases.is_ours(p.method)]
+    rivals = [(p, best_within(own, p.time)) for p in front if not cases.is_ours(leader(found, p.time).method)]
     return {
         "place": place,
         "points": found,
         "front": [p.method for p in front],
-        "best": [(budget, best_within(found, budget)) for budget in cases.BUDGETS],
+        "best": [(budget, leader(found, budget)) for budget in cases.BUDGETS],
+        "best_by_fetches": [(budget, leader(found, budget, fetches_of)) for budget in cases.FETCH_BUDGETS],
         "rivals": rivals,
     }
 
@@ -226,11 +241,11 @@ def thesis(entries):
     return rows
 
 
-def tally(found):
-    """Of the cells of the budget tables: {"ours", "rivals", "none"}."""
+def tally(found, by="best"):
+    """Of the cells of the budget tables, of times or (by="best_by_fetches") of fetches: {"ours", "rivals", "none"}."""
     count = {"ours": 0, "rivals": 0, "none": 0}
     for own in found:
-        for _, best in own["best"]:
+        for _, best in own[by]:
             count["none" if best is None else "ours" if cases.is_ours(best.method) else "rivals"] += 1
     return count
 

@@ -10,17 +10,20 @@ from runs import SYNTHETIC
 
 REFERENCE = "reference"
 BASELINE = "gmm8"
-OURS = "gmm"
+# Lobes of a table, of a line without one, and as many as a material draws by itself.
+OURS = ("gmm", "line", "auto")
 # Every method of the contract, by family. Those that bake/methods.gd does not know, or that a renderer cannot draw, are
 # recorded with the reason.
 FAMILIES = {
-    "Lobelight": ("gmm1", "gmm2", "gmm4", "gmm8", "gmm16", "gmm24", "gmm32"),
+    "Lobelight, tables": ("gmm1", "gmm2", "gmm3", "gmm4", "gmm8", "gmm16", "gmm24", "gmm32"),
+    "Lobelight, lines": ("line1", "line2", "line4", "line8", "line16", "line24", "line32"),
+    "Lobelight, automatic": ("auto",),
     "Töral 2015": ("toral8", "toral16"),
     "importance sampling": ("fis8", "fis16", "fis40"),
     "importance sampling, our pyramid": ("fis40g",),
     "all-frequency": ("allfreq1", "allfreq8"),
     "anisotropic Gaussian": ("asg",),
-    "major axis": ("majoraxis8",),
+    "major axis": ("majoraxis8", "majoraxis32"),
     "closed form": ("closed8",),
     "split sum": ("splitsum",),
     "Godot": ("stock",),
@@ -28,18 +31,20 @@ FAMILIES = {
 METHODS = tuple(method for family in FAMILIES.values() for method in family)
 RIVALS = tuple(method for method in METHODS if not method.startswith(OURS))
 # Beside each other in the pictures.
-PICTURED = ("gmm8", "gmm16", "fis40", "toral8", "allfreq1", "asg", "majoraxis8", "splitsum", "stock")
+PICTURED = ("auto", "gmm8", "line16", "fis40", "toral8", "allfreq1", "asg", "majoraxis32", "splitsum", "stock")
 
 BRDF_NAMES = {"ward": "Ward", "ggx": "GGX"}
 THESIS_WIDTHS = (0.01, 0.05, 0.1, 0.15, 0.2)
 ISOTROPIC = tuple(("ward", (width, width)) for width in THESIS_WIDTHS)
 ANISOTROPIC = tuple(("ward", alpha) for alpha in ((0.01, 0.2), (0.05, 0.2), (0.05, 0.5)))
-OTHER = (("ggx", (0.1, 0.1)), ("ggx", (0.05, 0.2)))
+OTHER = (("ggx", (0.1, 0.1)), ("ggx", (0.05, 0.2)), ("ggx", (0.01, 0.2)), ("ggx", (0.5, 0.5)))
 # Of which the thesis gives figures.
 THESIS_MATERIALS = (ISOTROPIC[0], ANISOTROPIC[0])
 MATERIALS = (*ISOTROPIC, *ANISOTROPIC, *OTHER)
 # On a GPU, by other coverages, and with one more in the renderers after the first and on other maps than the timed one.
 FEWER_MATERIALS = (ISOTROPIC[0], ISOTROPIC[2], ANISOTROPIC[0], ANISOTROPIC[1])
+# These too, in every renderer and on every map.
+FEWER_OTHER = (OTHER[0], OTHER[2])
 STUDIED = (ISOTROPIC[0], ISOTROPIC[2], ANISOTROPIC[1])
 QUICK_MATERIALS = (ISOTROPIC[2], ANISOTROPIC[1])
 
@@ -52,6 +57,9 @@ OTHER_MAPS = ("sunset", "forest")
 COVERAGES = (0.77, 0.9)
 # Křivánek and Colbert 2008 add one level to what the chapter of 2007 has.
 FIS_BIASES = (1.0,)
+# Beside the best, which is compared everywhere; see bake/comparators/fis.gd.
+FIS_FORMS = ("published", "integral")
+FIS_METHODS = ("fis8", "fis16", "fis40", "fis40g")
 FILTERS = ("box", "binomial", "gaussian", "disc")
 USUAL_FILTER = "disc"
 FACE_SIZES = (64, 128, 256, 512)
@@ -59,6 +67,11 @@ ISOTROPIC_VIEWS = ((4, 1), (8, 1), (16, 1), (32, 1), (64, 1))
 ANISOTROPIC_VIEWS = ((4, 2), (8, 4), (16, 8), (32, 16))
 # GPU time over that of gmm8 in the same renderer; infinity: however long it takes.
 BUDGETS = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, float("inf"))
+# Fetches of the environment.
+FETCH_BUDGETS = (1, 2, 3, 4, 8, 16, 24, 32, 40)
+# dB by which the best rival has to be better than our best within a budget: less is not seen, and other samples of the
+# reference would move it.
+LEAST_LEAD = 0.05
 
 SOFTWARE, GPU = "software", "gpu"
 
@@ -118,10 +131,10 @@ def full(renderers=RENDERERS, given_maps=()):
     """A whole run: every material on one map in the first renderer, fewer on other maps and renderers, and the studies."""
     first, *others = renderers
     plan = _materials(first, MATERIALS, (TIMED_MAP,))
-    plan += _materials(first, (*FEWER_MATERIALS, OTHER[0]), (*OTHER_MAPS, SYNTHETIC, *given_maps))
+    plan += _materials(first, (*FEWER_MATERIALS, *FEWER_OTHER), (*OTHER_MAPS, SYNTHETIC, *given_maps))
     plan += _studies(first, STUDIED, FEWER_MATERIALS, ISOTROPIC_VIEWS, ANISOTROPIC_VIEWS, FACE_SIZES)
     for renderer in others:
-        plan += _materials(renderer, (*FEWER_MATERIALS, OTHER[0]), (TIMED_MAP,))
+        plan += _materials(renderer, (*FEWER_MATERIALS, *FEWER_OTHER), (TIMED_MAP,))
     return plan
 
 
@@ -174,7 +187,9 @@ def _studies(renderer, studied, covered, isotropic_views, anisotropic_views, fac
         if covered == FEWER_MATERIALS:
             plan += cases("coverage", THESIS_MATERIALS, ("toral8", "toral16"), stage, SYNTHETIC)
     for bias in FIS_BIASES:
-        plan += cases("bias", studied, ("fis8", "fis16", "fis40", "fis40g"), {"fis_bias": bias})
+        plan += cases("bias", studied, FIS_METHODS, {"fis_bias": bias})
+    for form in FIS_FORMS:
+        plan += cases("form", (*studied, *OTHER), FIS_METHODS, {"fis_form": form})
     for name in FILTERS:
         if name != USUAL_FILTER:
             plan += cases("filter", studied, ("gmm8", "gmm16", "fis40g"), {"filter": name})

@@ -13,7 +13,9 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator  # noqa: 
 
 FAMILIES = tuple(cases.FAMILIES)
 STYLES = {
-    "Lobelight": ("#c2410c", "o"),
+    "Lobelight, tables": ("#c2410c", "o"),
+    "Lobelight, lines": ("#f59e0b", "d"),
+    "Lobelight, automatic": ("#7f1d1d", "8"),
     "Töral 2015": ("#64748b", "s"),
     "importance sampling": ("#1d4ed8", "^"),
     "importance sampling, our pyramid": ("#0891b2", "v"),

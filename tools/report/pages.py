@@ -12,6 +12,7 @@ from page import Page
 SECTIONS = (
     verdicts.acceptance,
     verdicts.budgets,
+    verdicts.fetch_budgets,
     verdicts.rivals_ahead,
     verdicts.time,
     verdicts.pictures,
@@ -20,6 +21,7 @@ SECTIONS = (
     studies.tables_size,
     studies.pyramids,
     studies.biases,
+    studies.forms,
     studies.changing,
     studies.changing_by_the_clock,
     studies.bake,

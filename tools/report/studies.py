@@ -131,6 +131,31 @@ def biases(page):
         page.text(source_of(entries))
 
 
+def forms(page):
+    """Importance sampling as published and with what came later."""
+    rows, used = {}, []
+    for entry in study(page, "form"):
+        material = analysis.material_of(entry)
+        usual = analysis.find(page.entries, Place(page.device, page.renderer, cases.TIMED_MAP, material))
+        if usual is None:
+            continue
+        used.append(entry)
+        of_material = rows.setdefault(material, {m: [usual["methods"][m]["psnr"]] for m in cases.FIS_METHODS if m in usual["methods"]})
+        for method, found in of_material.items():
+            if method in entry["methods"]:
+                found.append(entry["methods"][method]["psnr"])
+    if rows:
+        page.heading("Importance sampling as it was published, and since")
+        page.text(
+            "PSNR in dB as compared above / as in the chapter of 2007 / with kernels of the density's integral (Tokuyoshi 2016) for"
+            f" GGX too; on {cases.TIMED_MAP}. For Ward the first and the last are the same."
+        )
+        methods = list(next(iter(rows.values())))
+        cells = [[cases.material_name(m), *(" / ".join(map(decibels, found)) for found in own.values())] for m, own in rows.items()]
+        page.table(["material", *methods], cells)
+        page.text(source_of(used))
+
+
 def changing(page):
     panels, rows, used = {}, [], []
     for v in page.of_first():

@@ -15,8 +15,11 @@ OTHER_REPORTS = {
 }
 DESCRIPTIONS = {
     "gmm": "this project: as many lobes of a table, one fetch of the pyramid each",
+    "line": "this project: as many lobes strung along the highlight's long axis, computed without a table",
+    "auto": "this project: as many lobes as a material of these widths draws by itself, of a table or of a line",
     "toral": "Töral 2015 as written: independent fits, nearest view, dual-paraboloid map with 2 × 2 means, eq. 2.11",
-    "fis": "filtered importance sampling, Colbert and Křivánek 2007, as many samples, on 2 × 2 means; `fis40g` on our pyramid",
+    "fis": "filtered importance sampling, Colbert and Křivánek 2007, as many samples, on 2 × 2 means, with kernels of the density's"
+    " integral for Ward (Tokuyoshi 2016) and the bounded visible normals for GGX (Tokuyoshi and Eto 2024); `fis40g` on our pyramid",
     "allfreq": "all-frequency rendering, Wang et al. 2009: one spherical Gaussian by spherical warp, or eight",
     "asg": "one anisotropic spherical Gaussian, Xu et al. 2013",
     "majoraxis": "samples along the BRDF's major axis on a prefiltered map, Cocco, Zanni and Chermain 2024",
@@ -64,6 +67,11 @@ def in_short(page, left_out, to_come):
         items.append(
             f"Of {sum(count.values())} pairs of a case and a time budget, Lobelight is the most accurate in {count['ours']},"
             f" a rival in {count['rivals']}; in {count['none']} nothing is as fast."
+        )
+        count = analysis.tally(page.verdicts, "best_by_fetches")
+        items.append(
+            f"Of {sum(count.values())} pairs of a case and a number of fetches, Lobelight is the most accurate in {count['ours']},"
+            f" a rival in {count['rivals']}."
         )
     if page.thesis:
         agreed = [row["place"] for row in page.thesis if row["above"] and row["as_high"]]
@@ -124,16 +132,29 @@ def budgets(page):
     page.heading("The best method within a time")
     page.text(
         f"The most accurate method that takes at most so many times the GPU time of `{cases.BASELINE}`, and its PSNR in dB;"
-        " rivals are **bold**."
+        f" rivals are **bold**. A rival's lead below {cases.LEAST_LEAD:g} dB, which other samples of the reference would turn, is none."
     )
+    budget_tables(page, "best", analysis.budget_name)
+
+
+def fetch_budgets(page):
+    if not page.verdicts:
+        return
+    page.heading("The best method within so many fetches")
+    page.text(
+        "The same for fetches of the environment, which are what an update of the pyramid, memory and a phone's bandwidth see; the"
+        " time that a method computes for is not in it. Maps that were filtered for one material (`splitsum`, `majoraxis`) take part."
+    )
+    budget_tables(page, "best_by_fetches", lambda budget: f"≤ {budget}")
+
+
+def budget_tables(page, by, name_of):
     keys = [(v["place"].device, v["place"].renderer, v["place"].map) for v in page.verdicts]
     for device, renderer, map_name in dict.fromkeys(keys):
         own = [v for v, key in zip(page.verdicts, keys) if key == (device, renderer, map_name)]
-        rows = [
-            [cases.material_name(v["place"].material), *(best_cell(best) for _, best in v["best"])] for v in own
-        ]
+        rows = [[cases.material_name(v["place"].material), *(best_cell(best) for _, best in v[by])] for v in own]
         page.heading(f"{renderer}, {map_name}{', GPU' if device == cases.GPU else ''}", 3)
-        page.table(["material", *(analysis.budget_name(b) for b in cases.BUDGETS)], rows)
+        page.table(["material", *(name_of(budget) for budget, _ in own[0][by])], rows)
         page.text(source_of(entries_of(page.entries, own)))
 
 
