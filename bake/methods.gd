@@ -8,12 +8,15 @@ const ClosedForm := preload("comparators/closed_form.gd")
 const Fis := preload("comparators/fis.gd")
 const Gmm := preload("comparators/gmm.gd")
 const MajorAxis := preload("comparators/major_axis.gd")
+const OwnLine := preload("comparators/own_line.gd")
 const SplitSum := preload("comparators/split_sum.gd")
 const Stock := preload("comparators/stock.gd")
 const Toral := preload("comparators/toral.gd")
 
 const REFERENCE := "reference"
-## Drawn, besides `gmm<lobes>`, `gmm<lobes>r` and the reference.
+## As many lobes as a material draws by itself.
+const AUTOMATIC := "auto"
+## Drawn, besides `gmm<lobes>`, `gmm<lobes>r`, `line<lobes>`, `auto` and the reference.
 const RIVALS: PackedStringArray = [
 	"fis8",
 	"fis16",
@@ -45,10 +48,17 @@ static func error(method: String, in_room := false) -> String:
 			"method %s is not drawn in rooms; those are gmm<lobes>, gmm<lobes>_flat, %s and reference."
 			% [method, ", ".join(ROOM_RIVALS)]
 		)
+	if in_room and (method == AUTOMATIC or _line_lobes(method) > 0):
+		return "method %s is not drawn in rooms." % method
 	if method == REFERENCE or method in RIVALS or _gmm_lobes(method) > 0:
 		return ""
+	if method == AUTOMATIC or _line_lobes(method) > 0:
+		return ""
 	return (
-		"method %s is unknown; the methods are gmm<lobes>, gmm<lobes>r (gmm8, gmm8r …), %s and reference."
+		(
+			"method %s is unknown; the methods are gmm<lobes>, gmm<lobes>r (gmm8, gmm8r …), line8, line16,"
+			+ " line24, line32, auto, %s and reference."
+		)
 		% [method, ", ".join(RIVALS)]
 	)
 
@@ -59,6 +69,8 @@ static func make(method: String, brdf: String, alpha: PackedFloat64Array) -> Com
 	if method.begins_with("gmm"):
 		var lobes := method.trim_suffix(_FLAT)
 		made = Gmm.make(_gmm_lobes(lobes), lobes.ends_with("r"), lobes != method)
+	elif method == AUTOMATIC or method.begins_with("line"):
+		made = OwnLine.make(_line_lobes(method))
 	elif method.begins_with("fis"):
 		made = Fis.make(_number_after("fis", method.trim_suffix("g")), method.ends_with("g"))
 	elif method.begins_with("toral"):
@@ -84,6 +96,12 @@ static func make(method: String, brdf: String, alpha: PackedFloat64Array) -> Com
 
 static func _gmm_lobes(method: String) -> int:
 	return _number_after("gmm", method.trim_suffix("r"))
+
+
+# 0 where it is no line, or none of a number that is drawn.
+static func _line_lobes(method: String) -> int:
+	var lobes := _number_after("line", method)
+	return lobes if lobes in OwnLine.LineChoice.PLACES else 0
 
 
 # 0 where the name is not `family` and a whole number.

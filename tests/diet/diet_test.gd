@@ -17,7 +17,7 @@ const WARD := "res://addons/lobelight/tables/ward_8.res"
 const LEFT := [
 	["empty", 0.0, 0.0],
 	["isotropic", 0.005, 0.0],
-	["anisotropic", 0.03, 0.0],
+	["anisotropic", 0.0, 0.0],
 	["by_script", 0.06, 0.0],
 	["declared", 0.25, 0.0],
 	["worn", 0.05, 0.0],

@@ -21,7 +21,7 @@ const KEPT := [
 	["worn", "texture"],
 ]
 ## Roughness and anisotropy.
-const SURFACES := [[0.3, 0.0], [0.45, 0.7], [0.45, -0.7], [1.0, 0.0], [0.05, 0.0], [0.06, 1.1]]
+const SURFACES := [[0.3, 0.0], [0.45, 0.7], [0.45, -0.7], [1.0, 0.0], [0.05, 0.0], [0.06, 0.7]]
 
 
 func _material(roughness: float, anisotropy: float) -> LobeMaterial3D:

@@ -23,7 +23,7 @@ KNOWS = {
     # Shows a light through a table. It preloads what its shader includes.
     "material": (
         *("table", "light", "shaders", "antialiasing", "clear_coat", "diffuse", "occlusion"),
-        *("detail", "fades", "lamps", "msdf", "parallax", "sheen", "sources", "triplanar", "vertices"),
+        *("detail", "fades", "lamps", "line", "msdf", "parallax", "sheen", "sources", "triplanar", "vertices"),
     ),
     # Parts that exports may leave out. They know those whom they serve, and these load them on demand.
     "antialiasing": (),
@@ -33,6 +33,7 @@ KNOWS = {
     "fades": (),
     "frozen": ("light",),
     "lamps": (),
+    "line": (),
     "engine_light": ("light",),
     "mixing": ("material", "table", "pyramid", "shaders"),
     "msdf": (),

@@ -10,6 +10,7 @@ const LobeEnvironment := preload("../../runtime/light/lobe_environment_3d.gd")
 const LightSettings := preload("../../runtime/light/light_settings.gd")
 const LobeProbe := preload("../../runtime/probes/lobe_probe_3d.gd")
 const OnDemand := preload("../../runtime/on_demand.gd")
+const TableChoice := preload("../../runtime/material/table_choice.gd")
 
 const RUN_TIME := "res://addons/lobelight/runtime/"
 const DECLARATION := "metadata/lobelight_features"
@@ -45,6 +46,7 @@ const FOLDERS: Dictionary[String, String] = {
 	"msdf": MSDF,
 	"parallax": PARALLAX,
 	"lamps": LAMPS,
+	"line": OnDemand.LINES,
 	"live": OnDemand.LIVE,
 	"probes": OnDemand.PLACES,
 	"sheen": SHEEN,
@@ -64,6 +66,7 @@ const DEFINES: Dictionary[String, String] = {
 	PARALLAX: "LOBELIGHT_PARALLAX",
 	OCCLUSION: "LOBELIGHT_OCCLUDED",
 	OnDemand.ENGINE_LIGHT: "LOBELIGHT_ENGINE",
+	OnDemand.LINES: "LOBELIGHT_LINE",
 	OnDemand.PLACES: "LOBELIGHT_PLACED",
 	SHEEN: "LOBELIGHT_SHEEN",
 	OnDemand.SOURCES: "LOBELIGHT_SOURCES",
@@ -82,6 +85,7 @@ const _WORDS: Dictionary[String, String] = {
 	OnDemand.ENGINE_LIGHT:
 	"diffuse_light|sdfgi_enabled|ssao_enabled|ssil_enabled|VoxelGI|LightmapGI|ReflectionProbe",
 	OnDemand.FILTERS: "filter",
+	OnDemand.LINES: "anisotropy(_enabled)?|Quality\\.(AUTOMATIC|LOBES_\\d+)",
 	OnDemand.MIXING: "roughness|anisotropy",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
 	OnDemand.LIVE: "source|panorama|LobeEnvironment3D",
@@ -107,6 +111,7 @@ const _OF_MATERIALS: PackedStringArray = [
 	DIFFUSE,
 	FADES,
 	LAMPS,
+	OnDemand.LINES,
 	MSDF,
 	OnDemand.MIXING,
 	OCCLUSION,
@@ -182,6 +187,8 @@ func look_at_material(file: String, material: LobeMaterial3D) -> void:
 		add(OnDemand.ANTIALIASING, file)
 	if material.occludes_reflections():
 		add(OCCLUSION, file)
+	if TableChoice.find_line(material, material.get_shown_anisotropy()).places > 0:
+		add(OnDemand.LINES, file)
 	if material.detail_enabled:
 		add(DETAIL, file)
 	if material.shows_msdf():

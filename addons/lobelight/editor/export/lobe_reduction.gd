@@ -80,6 +80,8 @@ func reduce(file: String, material: LobeMaterial3D) -> bool:
 	var problem := "" if _is_fixed(material) else why_none
 	if problem.is_empty() and tables_of == null:
 		problem = "a table or a texture of its own or a script says what is drawn"
+	if problem.is_empty() and _has_line(material):
+		problem = "its widths are long, and drawn without a table"
 	if problem.is_empty() and not can_edit(home):
 		problem = "imported files are exported as they are"
 	if problem:
@@ -147,6 +149,10 @@ func _edit(value: Variant, seen: Dictionary[int, bool]) -> bool:
 		if property["usage"] & PROPERTY_USAGE_STORAGE:
 			is_changed = _edit(resource.get(property["name"]), seen) or is_changed
 	return is_changed
+
+
+static func _has_line(material: LobeMaterial3D) -> bool:
+	return TableChoice.find_line(material, material.get_shown_anisotropy()).places > 0
 
 
 # Whether nothing changes the widths while the game runs.

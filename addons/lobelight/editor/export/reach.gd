@@ -40,6 +40,8 @@ var _unknown: PackedStringArray = []
 var _declared := false
 # Files that may make materials; those have what a new one has, and what scripts assign.
 var _made_by_script: Dictionary[String, bool] = {}
+# Whether a script may, and so have long widths drawn by tables.
+var _switches_anisotropy := false
 # A script that names what sheens have.
 var _sheen_script := ""
 var _named_sets: Dictionary[String, String] = {}
@@ -175,6 +177,8 @@ func _read_script(file: String, text: String) -> void:
 			features.add_all(file)
 			frozen.add_all(file)
 		var assigned := _assignment.search(code)
+		if "anisotropy_enabled" in code or "quality" in code:
+			_switches_anisotropy = true
 		if "sheen_" in code:
 			_sheen_script = file
 		if "clearcoat_enabled" in code:
@@ -279,9 +283,16 @@ func _include(file: String, material: LobeMaterial3D) -> void:
 	var path := TableChoice.DEFAULT_SET
 	if material.table_set != null:
 		path = material.table_set.resource_path
+	var anisotropies := _all_of("anisotropy", material.anisotropy)
+	var tabled: Array[float] = []
+	for anisotropy in anisotropies:
+		if not _has_line_alone(material, anisotropy):
+			tabled.append(anisotropy)
+	if tabled.is_empty():
+		return
+	anisotropies = tabled
 	var reach := _get_set(path)
 	reach.add_user(file)
-	var anisotropies := _all_of("anisotropy", material.anisotropy)
 	if material.varies():
 		if anisotropies.max() == 0.0 and anisotropies.min() == 0.0:
 			reach.isotropic_because = "%s has a texture of widths" % file
@@ -290,6 +301,16 @@ func _include(file: String, material: LobeMaterial3D) -> void:
 	for roughness in _all_of("roughness", material.roughness):
 		for anisotropy in anisotropies:
 			reach.add_surface(Widths.from_roughness(roughness, anisotropy))
+
+
+# Whether widths need no table. Where a script does with them what is not known, nothing is.
+func _has_line_alone(material: LobeMaterial3D, anisotropy: float) -> bool:
+	if not (_unknown.is_empty() or _declared) or _switches_anisotropy:
+		return false
+	if not material.anisotropy_enabled:
+		return false
+	var line := TableChoice.find_line(material, anisotropy)
+	return line.places > 0 and not line.fades
 
 
 # A material's own value and those that scripts may give it.

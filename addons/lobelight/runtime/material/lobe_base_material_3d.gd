@@ -19,6 +19,22 @@ enum SpecularAntialiasing {
 	ENABLED,
 }
 
+## How many lobes a material draws with its [member table_set].
+enum Quality {
+	## As many as the widths need: those of the set where they are nearly round, eight with the ready
+	## sets; with GGX and Ward 16 to 32 lobes, which need no table, where one width is more than three
+	## times the other.
+	AUTOMATIC = 0,
+	## The lobes of the set, whatever the widths.
+	LOBES_8 = 8,
+	## Of long widths, 16 lobes at most.
+	LOBES_16 = 16,
+	## Of long widths, 24 lobes at most.
+	LOBES_24 = 24,
+	## Of long widths, 32 lobes at most, as with Automatic.
+	LOBES_32 = 32,
+}
+
 # The hints of enumerations, as BaseMaterial3D's own.
 const _TRANSPARENCIES := "Disabled,Alpha,Alpha Scissor,Alpha Hash,Depth Pre-Pass"
 const _BLEND_MODES := "Mix,Add,Subtract,Multiply,Premultiplied Alpha"
@@ -31,6 +47,7 @@ const _DIFFUSE_MODES := "Burley,Lambert,Lambert Wrap,Toon"
 const _SPECULAR_MODES := "SchlickGGX,Toon,Disabled"
 const _CHANNELS := "Red,Green,Blue,Alpha,Gray"
 const _OPERATORS := "Add,Multiply"
+const _QUALITIES := "Automatic:0,8 Lobes:8,16 Lobes:16,24 Lobes:24,32 Lobes:32"
 const _FILTERS := (
 	"Nearest,Linear,Nearest Mipmap,Linear Mipmap,Nearest Mipmap Anisotropic,"
 	+ "Linear Mipmap Anisotropic"
@@ -64,6 +81,12 @@ const Widths := preload("../table/widths.gd")
 	set(value):
 		_follow(table, value)
 		table = value
+		_queue_update()
+
+## How many lobes a pixel may be drawn with, each of them a look-up in the environment.
+@export_custom(PROPERTY_HINT_ENUM, _QUALITIES) var quality := Quality.AUTOMATIC:
+	set(value):
+		quality = value
 		_queue_update()
 
 @export_group("Transparency")
@@ -1127,10 +1150,20 @@ func get_shown_anisotropy() -> float:
 	return anisotropy if anisotropy_enabled else 0.0
 
 
+## The largest number of lobes that [member quality] allows.
+func get_most_lobes() -> int:
+	return quality if quality != Quality.AUTOMATIC else Quality.LOBES_32
+
+
 ## Whether the widths vary from pixel to pixel.
 func varies() -> bool:
 	if orm_texture != null or roughness_texture != null:
 		return true
+	return varies_in_anisotropy()
+
+
+## Whether the anisotropy varies from pixel to pixel.
+func varies_in_anisotropy() -> bool:
 	if get_shown_anisotropy() == 0.0:
 		return false
 	return anisotropy_flowmap != null and anisotropy_flowmap.has_alpha()

@@ -79,6 +79,7 @@ const _INCLUDES: Array[ShaderInclude] = [
 	preload("../fades/fades.gdshaderinc"),
 	preload("../shaders/frame.gdshaderinc"),
 	preload("../lamps/lamps.gdshaderinc"),
+	preload("../line/line.gdshaderinc"),
 	preload("../shaders/lobe_table.gdshaderinc"),
 	preload("../shaders/material.gdshaderinc"),
 	preload("../shaders/material_inputs.gdshaderinc"),

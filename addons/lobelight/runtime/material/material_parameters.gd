@@ -55,12 +55,16 @@ static func _apply_metal(surface: LobeBaseMaterial3D) -> void:
 
 
 static func _apply_table(material: RID, choice: TableChoice) -> void:
-	_give(material, &"lobelight_table", choice.get_texture())
-	_give(material, &"lobelight_table_lookup", choice.get_lookup())
-	if choice.widths_texture != null:
-		_give(material, &"lobelight_widths", choice.widths_texture.levels)
-	else:
-		_give(material, &"lobelight_table_alpha", choice.get_alpha())
+	if choice.has_table():
+		_give(material, &"lobelight_table", choice.get_texture())
+		_give(material, &"lobelight_table_lookup", choice.get_lookup())
+		if choice.widths_texture != null:
+			_give(material, &"lobelight_widths", choice.widths_texture.levels)
+		else:
+			_give(material, &"lobelight_table_alpha", choice.get_alpha())
+	var of_line := choice.get_line_parameters()
+	for name in of_line:
+		_give(material, name, of_line[name])
 	_give(material, &"lobelight_roughness", choice.roughness)
 	if not choice.is_isotropic:
 		_give(material, &"lobelight_anisotropy", choice.anisotropy)

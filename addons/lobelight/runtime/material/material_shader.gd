@@ -60,12 +60,14 @@ static func count_fetches(
 ) -> Dictionary[String, int]:
 	var defines := _defines(surface, choice)
 	var environment := choice.lobe_count
-	var table := choice.lobe_count
-	var samplers := 2
+	var table := choice.lobe_count if choice.has_table() else 0
+	var samplers := 2 if choice.has_table() else 1
 	if "LAMPS_ONLY" in defines:
 		return {"environment": 0, "table": 0, "samplers": 0}
 	if "SECOND_TEXELS" in defines or ("WIDTHS_PER_PIXEL" in defines and not choice.is_isotropic):
 		table *= 2
+	if "LINE_FADES" in defines:
+		environment += choice.line.places
 	if "DIELECTRIC" in defines and "ENGINE_DIFFUSE" not in defines:
 		environment += DIFFUSE_FETCHES
 	if choice.coat != null:
@@ -168,7 +170,12 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		defines.append("WIDE_BITANGENT")
 	if not choice.is_isotropic and choice.rotation != 0.0:
 		defines.append("TURNED")
-	if choice.widths_texture != null:
+	if choice.line.places > 0:
+		defines.append("LINE %d" % choice.line.places)
+		defines.append("LINE_" + choice.line.MODELS[choice.line.brdf])
+		if choice.line.fades:
+			defines.append("LINE_FADES")
+	if choice.is_per_pixel:
 		defines.append("WIDTHS_PER_PIXEL")
 	elif choice.has_second_texels():
 		defines.append("SECOND_TEXELS")

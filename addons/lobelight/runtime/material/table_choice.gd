@@ -1,15 +1,17 @@
 @tool
 extends RefCounted
-## Which lobes a [LobeMaterial3D] draws: a table, or all tables of a set.
+## Which lobes a [LobeMaterial3D] draws: those of a table, of all tables of a set, or of a line.
 ##
 ## Widths that change time and again, as animated ones do, get no tables of their own. Isotropic
 ## tables are then two neighbouring rows of the texture that has all of them, which the sampler
 ## mixes as it mixes views; anisotropic ones are mixed on the GPU. Both cost a pixel nothing.
 
+const LineChoice := preload("line_choice.gd")
 const MixedLobes := preload("mixed_lobes.gd")
 const OnDemand := preload("../on_demand.gd")
 const Widths := preload("../table/widths.gd")
 const WidthsTexture := preload("../table/widths_texture.gd")
+const DEFAULT_BRDF := "ggx"
 const DEFAULT_SET := "res://addons/lobelight/tables/ggx_8.res"
 const COAT_SET := "res://addons/lobelight/tables/coat_4.res"
 const SHEEN_SET := "res://addons/lobelight/tables/charlie_4.res"
@@ -23,10 +25,15 @@ const _FIRST_CHANGES := 1
 static var _sets: Dictionary[String, LobeTableSet] = {}
 static var _mutex := Mutex.new()
 
-## The lobes, where one table serves the whole surface; [code]null[/code] where widths vary or move.
+## The lobes, where one table serves the whole surface; [code]null[/code] where widths vary or move,
+## or there is a line alone.
 var table: LobeTable
 ## The lobes of all widths, where these vary from pixel to pixel; otherwise [code]null[/code].
 var widths_texture: WidthsTexture
+## The lobes that need no table, if there are any.
+var line := LineChoice.new()
+## Whether widths vary from pixel to pixel.
+var is_per_pixel := false
 ## The clear coat's lobes, or [code]null[/code].
 var coat: LobeTable
 ## The sheen's lobes, or [code]null[/code].
@@ -76,21 +83,50 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 	table = null
 	widths_texture = null
 	_rows = null
-	var tables := get_set(surface)
-	is_from_set = surface.table == null and tables != null
-	if is_from_set:
-		_choose_from(tables, surface)
-	else:
+	is_per_pixel = false
+	line.clear()
+	if surface.table == null and surface.table_set == null:
+		# Before the ready set is loaded, which may not be needed.
+		_turn(surface, false)
+		_choose_line(DEFAULT_BRDF, surface, true)
+	var tables: LobeTableSet = null if _has_line_alone() else get_set(surface)
+	is_from_set = surface.table == null and (tables != null or _has_line_alone())
+	if not is_from_set:
 		_choose_table(surface)
-	if table != null or widths_texture != null or is_isotropic:
+	elif tables != null:
+		_choose_from(tables, surface)
+	if is_from_set and _has_line_alone():
+		_stand_in = null
+		is_isotropic = false
+		brdf = line.brdf
+		lobe_count = line.places
+		is_per_pixel = surface.varies()
+	if table != null or widths_texture != null or is_isotropic or _has_line_alone():
 		_mixed = null
 	_can_follow = is_from_set and table == null and not _has_turned
+	# Until its widths have changed time and again, the narrowest is told.
+	_can_follow = _can_follow and (_changes > _FIRST_CHANGES or not _has_line_alone())
 	coat = null
 	if surface.is_coated():
 		coat = _get_layer(COAT_SET, Widths.from_coat_roughness(surface.clearcoat_roughness))
 	sheen = null
 	if surface.has_sheen():
 		sheen = _get_layer(SHEEN_SET, surface.sheen_roughness * surface.sheen_roughness)
+
+
+## A line of [param count] lobes of a BRDF of these widths, as it is, without compensation for lost
+## energy: for comparisons.
+func choose_line(of_brdf: String, alpha: Vector2, count: int) -> void:
+	line.choose_count(of_brdf, count)
+	brdf = of_brdf
+	table = null
+	_mixed = null
+	is_from_set = false
+	is_isotropic = false
+	lobe_count = line.places
+	var godots := Widths.to_roughness(alpha)
+	roughness = godots.x
+	anisotropy = godots.y
 
 
 ## Hands on other widths at once, where they take no other shader; otherwise returns false, and the
@@ -113,8 +149,14 @@ func follow(new_roughness: float, shown_anisotropy: float, material: RID) -> boo
 		RenderingServer.material_set_param(material, &"lobelight_table_lookup", _row_lookup)
 		return true
 	if turned != anisotropy:
+		if not line.follow(turned):
+			return false
 		anisotropy = turned
 		RenderingServer.material_set_param(material, &"lobelight_anisotropy", anisotropy)
+	if line.places > 0:
+		var given := get_line_parameters()
+		for name in given:
+			RenderingServer.material_set_param(material, name, given[name])
 	if _mixed != null:
 		_mix()
 	return true
@@ -150,18 +192,35 @@ func get_alpha() -> Vector2:
 		return table.alpha
 	if _mixed != null:
 		return MixedLobes.ALPHA
+	if not is_isotropic:
+		return LineChoice.get_alpha(roughness, anisotropy)
 	return Vector2.ONE * clampf(roughness * roughness, _least, _largest)
 
 
 ## The narrowest width among all lobes; 0 where widths vary or move.
 func get_narrowest() -> float:
-	if table == null:
+	if table == null and (not _has_line_alone() or is_per_pixel or _changes > _FIRST_CHANGES):
 		return 0.0
-	var narrowest := minf(table.alpha.x, table.alpha.y)
+	var widths := table.alpha if table != null else get_alpha()
+	var narrowest := minf(widths.x, widths.y)
 	for layer: LobeTable in [coat, sheen]:
 		if layer != null:
 			narrowest = minf(narrowest, layer.alpha.x)
 	return narrowest
+
+
+## Whether lobes come from a table; all others need none.
+func has_table() -> bool:
+	return not _has_line_alone()
+
+
+## What the shader takes for lobes that need no table; empty if there are none.
+func get_line_parameters() -> Dictionary[StringName, Variant]:
+	if line.places == 0:
+		return {}
+	if is_per_pixel:
+		return line.get_parameters_of_pixels()
+	return line.get_parameters(roughness, anisotropy)
 
 
 ## Whether each lobe has a second texel.
@@ -171,13 +230,14 @@ func has_second_texels() -> bool:
 
 ## A number that is another one where the shader's code is, as far as it goes by the lobes.
 func get_shape() -> int:
-	var shape := lobe_count
+	var shape := 64 * line.places + lobe_count
 	var facts: Array[bool] = [
 		coat != null,
 		sheen != null,
 		is_isotropic,
 		is_from_set,
-		widths_texture != null,
+		is_per_pixel,
+		line.fades,
 		has_second_texels(),
 		rotation != 0.0,
 		anisotropy < 0.0,
@@ -191,20 +251,16 @@ func _choose_from(tables: LobeTableSet, surface: LobeBaseMaterial3D) -> void:
 	_stand_in = null
 	_least = tables.widths[0]
 	_largest = tables.widths[-1]
-	# Neither the engine nor flow maps turn negative anisotropy: axes that are turned are exchanged.
-	_has_turn = rotation != 0.0 and surface.anisotropy_flowmap == null
-	_has_turned = _has_turn and anisotropy < 0.0
-	if _has_turned:
-		anisotropy = Widths.exchanged(anisotropy)
-		rotation += 0.5 * PI
-	_ignores_anisotropy = tables.is_isotropic()
-	if _ignores_anisotropy:
-		anisotropy = 0.0
+	_turn(surface, tables.is_isotropic())
 	lobe_count = tables.lobe_count
 	brdf = tables.brdf
 	is_isotropic = anisotropy == 0.0
 	var can_vary := WidthsTexture.find_problem(tables.widths, is_isotropic).is_empty()
+	_choose_line(tables.brdf, surface, can_vary)
+	if _has_line_alone():
+		return
 	if surface.varies() and can_vary:
+		is_per_pixel = true
 		widths_texture = tables.get_widths_texture(is_isotropic)
 	elif _changes > _FIRST_CHANGES and can_vary and is_isotropic:
 		_rows = tables.get_widths_texture(true)
@@ -216,6 +272,31 @@ func _choose_from(tables: LobeTableSet, surface: LobeBaseMaterial3D) -> void:
 	else:
 		table = tables.shared_table_at(Widths.from_roughness(roughness, anisotropy))
 		is_isotropic = table.is_isotropic()
+
+
+# How the surface lies, as the shader is to take it.
+func _turn(surface: LobeBaseMaterial3D, ignores_anisotropy: bool) -> void:
+	anisotropy = surface.get_shown_anisotropy()
+	rotation = surface.anisotropy_rotation
+	# Neither the engine nor flow maps turn negative anisotropy: axes that are turned are exchanged.
+	_has_turn = rotation != 0.0 and surface.anisotropy_flowmap == null
+	_has_turned = _has_turn and anisotropy < 0.0
+	if _has_turned:
+		anisotropy = Widths.exchanged(anisotropy)
+		rotation += 0.5 * PI
+	_ignores_anisotropy = ignores_anisotropy
+	if _ignores_anisotropy:
+		anisotropy = 0.0
+
+
+# `can_vary` tells whether a table could be looked up for each pixel.
+func _choose_line(of_brdf: String, surface: LobeBaseMaterial3D, can_vary: bool) -> void:
+	var can_be_rounder := can_vary and surface.varies_in_anisotropy()
+	line.choose(of_brdf, anisotropy, surface.get_most_lobes(), can_be_rounder)
+
+
+func _has_line_alone() -> bool:
+	return line.places > 0 and not line.fades
 
 
 # Whether the GPU mixes. Exports leave the means out where they know of no widths that change.
@@ -246,6 +327,7 @@ func _choose_table(surface: LobeBaseMaterial3D) -> void:
 		if _stand_in == null:
 			_stand_in = LobeTable.make_single_lobe()
 		table = _stand_in
+	line.clear()
 	lobe_count = table.lobe_count
 	brdf = table.brdf
 	is_isotropic = table.is_isotropic()
@@ -261,6 +343,20 @@ static func get_set(surface: LobeBaseMaterial3D) -> LobeTableSet:
 	if surface.table != null:
 		return null
 	return _get_ready_set(DEFAULT_SET)
+
+
+## The lobes without a table that a surface draws with an anisotropy.
+static func find_line(surface: LobeBaseMaterial3D, with_anisotropy: float) -> LineChoice:
+	var found := LineChoice.new()
+	var tables := surface.table_set
+	var of_brdf := DEFAULT_BRDF
+	if tables != null:
+		var is_usable := tables.get_problem().is_empty() and not tables.is_isotropic()
+		of_brdf = tables.brdf if is_usable else ""
+	if surface.table == null or tables != null:
+		var can_be_rounder := surface.varies_in_anisotropy()
+		found.choose(of_brdf, with_anisotropy, surface.get_most_lobes(), can_be_rounder)
+	return found
 
 
 # Null if there is none.

@@ -1,0 +1,145 @@
+extends GdUnitTestSuite
+## Lobes that need no table: their light and energy against the reference integrator, and nothing is
+## seen of where materials change from tables to them or from one number of them to another.
+
+const Kit := preload("support/render_kit.gd")
+const Bench := preload("support/comparator_bench.gd")
+const ComparatorKit := preload("support/comparator_kit.gd")
+const LineChoice := preload("res://addons/lobelight/runtime/material/line_choice.gd")
+const LineLobes := preload("res://addons/lobelight/runtime/line/line_lobes.gd")
+
+const MATERIALS := [["ward", 0.02, 0.2], ["ward_bounded", 0.2, 0.02], ["ggx", 0.02, 0.2]]
+# Of the albedo, where the view is less than 63 degrees off the normal.
+const FURNACE_BIAS := 0.01
+const SIDE := 48
+# As screens show it.
+const MOST_STEP := 2.0 / 255.0
+
+var _bench: Bench
+var _view: LinearViewport
+
+
+func before_test() -> void:
+	_bench = auto_free(Bench.new(create_temp_dir("line")))
+	add_child(_bench)
+	_view = LinearViewport.new(SIDE)
+	add_child(_view)
+
+
+func after_test() -> void:
+	_view.free()
+
+
+func after() -> void:
+	clean_temp_dir()
+
+
+func test_white_furnace(brdf: String, x: float, y: float, _test_parameters := MATERIALS) -> void:
+	_bench.stage.panorama = Kit.constant(3.0)
+	var pixels := await _bench.drawn(_bench.make("line24", brdf, x, y))
+	for normal in ComparatorKit.NORMALS:
+		var albedo := ComparatorKit.albedo_at(brdf, Vector2(x, y), normal)
+		var share := ComparatorKit.value_at(pixels, normal) / (3.0 * albedo)
+		(
+			assert_float(share)
+			. append_failure_message("normal %s: %f of the albedo" % [normal, share])
+			. is_equal_approx(1.0, FURNACE_BIAS)
+		)
+
+
+func test_long_highlights(brdf: String, x: float, y: float, _test_parameters := MATERIALS) -> void:
+	_bench.light_lamps()
+	var expected := _bench.reference(brdf, x, y)
+	var errors: Dictionary[String, float] = {}
+	for name: String in ["closed8", "line24"]:
+		errors[name] = ComparatorKit.error(
+			await _bench.drawn(_bench.make(name, brdf, x, y)), expected
+		)
+	assert_float(errors["line24"]).append_failure_message(str(errors)).is_less(0.03)
+	assert_float(errors["line24"]).append_failure_message(str(errors)).is_less(
+		0.5 * errors["closed8"]
+	)
+
+
+func test_lobes_share_out_the_slopes() -> void:
+	for brdf: String in LineChoice.MODELS:
+		for count: float in [16.0, 17.3, 24.0]:
+			var parameters := LineLobes.get_parameters(brdf, count, 24)
+			var lobes: PackedVector4Array = parameters[&"lobelight_line"]
+			var weights := 0.0
+			var mean := 0.0
+			for lobe in lobes:
+				weights += lobe.y
+				mean += lobe.y * lobe.x
+			assert_float(weights).is_equal_approx(1.0, 1e-5)
+			assert_float(mean).is_equal_approx(0.0, 1e-5)
+
+
+func test_more_lobes_come_in_gradually() -> void:
+	# Where the number rises, the lobes are those of fewer, and others without weight.
+	for brdf: String in LineChoice.MODELS:
+		var few: PackedVector4Array = LineLobes.get_parameters(brdf, 16.0, 16)[&"lobelight_line"]
+		var many: PackedVector4Array = LineLobes.get_parameters(brdf, 16.0, 24)[&"lobelight_line"]
+		for place in 24:
+			if place < 4 or place >= 20:
+				assert_float(many[place].y).is_equal_approx(0.0, 1e-6)
+			else:
+				assert_vector(many[place]).is_equal_approx(few[place - 4], 1e-5 * Vector4.ONE)
+
+
+func test_no_step_is_seen() -> void:
+	var environment := LobeEnvironment3D.new()
+	_view.add_child(environment)
+	environment.panorama = (
+		Comparison
+		. load_panorama(ProjectSettings.globalize_path("res://demo/environments/hall.exr"))["texture"]
+	)
+	await environment.rebuild()
+	var sphere := Kit.make_sphere(null)
+	_view.add_child(sphere)
+	var kinds: Dictionary[String, bool] = {}
+	for anisotropy in _find_changes():
+		var pictures: Array[Image] = []
+		var materials: Array[LobeMaterial3D] = []
+		for step: float in [-1e-4, 1e-4]:
+			var material := LobeMaterial3D.new()
+			material.metallic = 1.0
+			material.roughness = 0.4
+			material.anisotropy_enabled = true
+			material.anisotropy = anisotropy + step
+			(sphere.mesh as PrimitiveMesh).material = material
+			# Kept, so that the next one finds its shader.
+			materials.append(material)
+			kinds[material.get_shader_code()] = true
+			pictures.append(await _view.capture())
+		var change := _largest_difference(pictures[0], pictures[1])
+		assert_float(change).append_failure_message("at %s" % anisotropy).is_less(MOST_STEP)
+	# Or nothing was to be seen: table, both, and the numbers of lobes.
+	assert_int(kinds.size()).is_greater(4 - 1)
+
+
+# Where materials change from one shader to another.
+func _find_changes() -> PackedFloat64Array:
+	var changes: PackedFloat64Array = []
+	var last := -1
+	for i in 1100:
+		var anisotropy := 0.5 + 0.6 * i / 1100.0
+		var choice := LineChoice.new()
+		choice.choose("ggx", anisotropy, 32, false)
+		var kind := 2 * choice.places + int(choice.fades)
+		if last >= 0 and kind != last:
+			changes.append(anisotropy)
+		last = kind
+	return changes
+
+
+func _largest_difference(a: Image, b: Image) -> float:
+	var largest := 0.0
+	for y in SIDE:
+		for x in SIDE:
+			var one := a.get_pixel(x, y).linear_to_srgb()
+			var other := b.get_pixel(x, y).linear_to_srgb()
+			for channel in 3:
+				var difference := minf(one[channel], 1.0) - minf(other[channel], 1.0)
+				largest = maxf(largest, absf(difference))
+	return largest
