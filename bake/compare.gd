@@ -11,6 +11,8 @@ const OPTIONS: PackedStringArray = [
 	"size",
 	"samples",
 	"filter",
+	"light",
+	"max-sources",
 	"coverage",
 	"views",
 	"bias",
@@ -97,6 +99,12 @@ func _read_stage(stage: ComparisonStage) -> void:
 	stage.filter = _arguments.text("filter", stage.filter)
 	if stage.filter not in ComparisonStage.FILTERS:
 		_arguments.fail("--filter is %s." % " or ".join(ComparisonStage.FILTERS.keys()))
+	stage.light_form = _arguments.text("light", stage.light_form)
+	if stage.light_form not in ComparisonStage.LIGHTS:
+		_arguments.fail("--light is %s." % " or ".join(ComparisonStage.LIGHTS))
+	if stage.light_form == "baked" and _arguments.has("room"):
+		_arguments.fail("--light baked is for panoramas: rooms are captured.")
+	stage.max_sources = _arguments.integer("max-sources", stage.max_sources, 0, 4)
 	stage.fis_bias = _arguments.numbers("bias", 1, [stage.fis_bias])[0]
 	stage.fis_form = _arguments.text("fis", stage.fis_form)
 	if stage.fis_form not in ComparisonStage.FIS_FORMS:

@@ -3,6 +3,7 @@ extends RefCounted
 ## What the methods of one comparison share: the scene tree, the surroundings in the forms that the
 ## methods need, and the options of the command.
 
+const PanoramaFilter := preload("res://addons/lobelight/editor/light/panorama_filter.gd")
 const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
 const DualParaboloidMap := preload("dual_paraboloid_map.gd")
 const PrefilteredMap := preload("prefiltered_map.gd")
@@ -17,6 +18,8 @@ const FILTERS: Dictionary[String, LobeEnvironment3D.Filter] = {
 ## The best kernels and samplers there are; the chapter of 2007; kernels of the density's integral
 ## for GGX too. See the method.
 const FIS_FORMS: PackedStringArray = ["best", "published", "integral"]
+## How the project's own light is made: on the GPU while the program runs, or as it is saved.
+const LIGHTS: PackedStringArray = ["live", "baked"]
 
 const _MEASURED_UPDATES := 3
 # The times of the GPU come some frames late.
@@ -29,6 +32,10 @@ var panorama: Texture2D
 var room: CompareRoom
 ## A key of [constant FILTERS]: how the project's own pyramid is made.
 var filter := "disc"
+## One of [constant LIGHTS].
+var light_form := "live"
+## Suns and lamps that are taken out of the project's own light, at most.
+var max_sources := 4
 ## Texels along the side of the faces of the pyramids; 0 for what [LobeEnvironment3D] chooses.
 var pyramid_size := 0
 ## Of gmm: the views of its table, elevations and azimuths; 0 for what [LobeBaker] chooses.
@@ -87,10 +94,30 @@ func bake(recipe: Dictionary, title: String) -> Dictionary:
 func light_materials() -> String:
 	if _environment == null:
 		_environment = _make_environment(filter)
+		_environment.max_sources = max_sources
+		if light_form == "baked":
+			var failure := await _bake_light()
+			if failure:
+				return failure
 		if room == null:
 			tree.root.add_child(_environment)
 	if _environment.get_cubemap() == null and not await _environment.rebuild():
 		return _environment.get_rebuild_error()
+	return ""
+
+
+# The environment's light as its import makes it, in half floats. Returns one sentence on failure.
+func _bake_light() -> String:
+	var kernel := FILTERS[filter] as Pyramid.Filter
+	if not Pyramid.is_round(kernel):
+		return "--light baked takes the filters disc and gaussian."
+	var request := PanoramaFilter.make_request(panorama.get_image(), pyramid_size, kernel)
+	request["max_sources"] = max_sources
+	var worker := NativeLibrary.create(&"LobeLightFilter")
+	var result := await NativeLibrary.run(worker, request, "filtering the light", tree)
+	if result.has("error"):
+		return result["error"]
+	_environment.light = PanoramaFilter.make_light(request, result)
 	return ""
 
 
@@ -112,7 +139,7 @@ func room_probe() -> Dictionary:
 func update_cost(used_filter: String) -> Dictionary:
 	if _update_costs.has(used_filter):
 		return _update_costs[used_filter]
-	if not (await light_materials()).is_empty():
+	if light_form == "baked" or not (await light_materials()).is_empty():
 		return {}
 	_environment.filter = FILTERS[used_filter]
 	_update_costs[used_filter] = (
@@ -136,8 +163,9 @@ func face_size() -> int:
 func light(used_filter: String) -> LobeLight:
 	if _lights.has(used_filter):
 		return _lights[used_filter]
-	# The one that lights materials has it already.
+	# The one that lights materials has it already, unless its suns and lamps have been taken out.
 	var is_shared := used_filter == filter and face_size() > 0
+	is_shared = is_shared and _environment.get_light().sources == null
 	var environment := _environment if is_shared else _make_environment(used_filter)
 	var made: LobeLight = null
 	if is_shared or await environment.rebuild():
@@ -199,6 +227,7 @@ func _make_environment(used_filter: String) -> LobeEnvironment3D:
 	environment.filter = FILTERS[used_filter]
 	environment.size = pyramid_size
 	environment.panorama = panorama
+	environment.max_sources = 0
 	if room != null:
 		environment.source = LobeEnvironment3D.Source.CAPTURE
 		environment.position = room.probe

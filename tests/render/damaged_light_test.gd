@@ -16,7 +16,7 @@ const FORMATS := [
 ]
 # What is wrong, and what is said of it.
 const CASES := [
-	["version", "The light was saved in form 7, this version reads up to 2: bake it again."],
+	["version", "The light was saved in form 7, this version reads up to 3: bake it again."],
 	["no faces", "The light has 0 faces, not 6: bake it again."],
 	["five faces", "The light has 5 faces, not 6: bake it again."],
 	["no face", "no image of 8 texels"],
@@ -29,6 +29,9 @@ const CASES := [
 	["variance", "The light does not say what its levels were blurred with: bake it again."],
 	["byte", "The light is not as it was saved, its checksum differs: bake it again."],
 	["number", "The light is not as it was saved, its checksum differs: bake it again."],
+	["sources", "The light's sources are not what sources are: bake it again."],
+	["fewer sources", "The light's sources are not what sources are: bake it again."],
+	["energy", "The light is not as it was saved, its checksum differs: bake it again."],
 	["base", "The light does not say what its levels were blurred with: bake it again."],
 ]
 
@@ -154,9 +157,28 @@ func _damage(light: LobeLight, damage: String) -> LobeLight:
 		"number":
 			light.seal()
 			light.level_variance *= 2.0
+		"sources":
+			light.source_texels = _make_sources(-1.0)
+		"fewer sources":
+			light.source_texels = _make_sources(1.0).slice(4)
+		"energy":
+			light.source_texels = _make_sources(1.0)
+			light.seal()
+			light.source_texels = _make_sources(2.0)
 		"base":
 			light.base_variance = INF
 	return light
+
+
+# One that shines from above.
+func _make_sources(energy: float) -> PackedFloat32Array:
+	var texels: PackedFloat32Array = []
+	texels.resize(48)
+	texels[1] = 1.0
+	texels[3] = 0.01
+	for channel in 3:
+		texels[16 + channel] = energy
+	return texels
 
 
 func _save(light: LobeLight) -> void:

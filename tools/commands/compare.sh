@@ -21,6 +21,8 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
 --size N        pixels along the side (default 256)
 --renderer R    mobile (default), gl_compatibility or forward_plus
 --filter F      of the pyramid of gmm, fis40g, allfreq, asg and closed8: disc (default), gaussian, binomial or box
+--light L       of gmm: live (default), drawn on the GPU while the program runs, or baked, as it is imported and saved
+--max-sources N suns and lamps that are taken out of the light of gmm (default 4); 0 leaves all in the map
 --samples N     of the reference, a pixel
 --timing-rounds N   GPU times of every method, in turns (default 15); 0 measures none
 --timing-size N pixels along the side where times are measured (default 256)

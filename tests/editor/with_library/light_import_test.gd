@@ -17,6 +17,7 @@ const OPTIONS := {
 	"format": LightFormats.Format.SHARED_EXPONENT,
 	"layer": "",
 	"exposure": 0.0,
+	"max_sources": 4,
 }
 ## File, options, texels along a face, the light's colour.
 const GOOD := [
@@ -140,7 +141,7 @@ class OneStep:
 
 
 func test_a_cancelled_import_makes_nothing() -> void:
-	var read := PanoramaImporter.read_file(FILES.path_join("layers.exr"), OPTIONS)
+	var read := LightImporter.read_file(FILES.path_join("layers.exr"), OPTIONS)
 	var options := OPTIONS.merged({"size": 2048}, true)
 	var made: Variant = LightImporter.filter(read, options, OneStep.new("layers"))
 	assert_bool(made is LobeLight).is_false()

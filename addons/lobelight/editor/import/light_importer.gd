@@ -13,6 +13,8 @@ const Progress := preload("import_progress.gd")
 const Pyramid := preload("../../runtime/pyramid/pyramid.gd")
 
 const NAME := "lobelight.light"
+## Texels along a side of what graphics cards take as a texture.
+const LARGEST_SIDE := 16384
 
 
 func _get_importer_name() -> String:
@@ -69,6 +71,12 @@ func _get_import_options(path: String, _preset: int) -> Array[Dictionary]:
 			"property_hint": PROPERTY_HINT_RANGE,
 			"hint_string": "-16,16,0.01,suffix:EV",
 		},
+		{
+			"name": "max_sources",
+			"default_value": 4,
+			"property_hint": PROPERTY_HINT_RANGE,
+			"hint_string": "0,4",
+		},
 	]
 
 
@@ -86,18 +94,18 @@ func _import(
 	_generated: Array[String]
 ) -> Error:
 	var path := "%s.%s" % [save_path, _get_save_extension()]
-	var read := PanoramaImporter.read_file(source, options)
+	var read := read_file(source, options)
 	if read.has("error"):
 		push_error(read["error"])
 		return ERR_FILE_CORRUPT
 	for note: String in read["notes"]:
 		print("%s: %s." % [source, note])
-	for warning: String in read["warnings"]:
-		push_warning("%s: %s." % [source, warning])
 	var progress := Progress.new(
 		"Filtering the light of %s" % source.get_file(), "Import LobeLight"
 	)
 	var made: Variant = filter(read, options, progress)
+	for warning: String in read["warnings"]:
+		push_warning("%s: %s." % [source, warning])
 	if made is LobeLight:
 		var light := made as LobeLight
 		light.seal()
@@ -113,15 +121,30 @@ func _import(
 	return ERR_SKIP
 
 
-## The light of a panorama as [method PanoramaImporter.read_file] gives it, or a sentence that says
-## why there is none.
+## What [method LobeImageFile.load_panorama] makes of a file, or its [code]"error"[/code], a
+## sentence.
+static func read_file(source: String, options: Dictionary) -> Dictionary:
+	var problem := NativeLibrary.get_problem()
+	if problem:
+		return {"error": "%s: %s" % [source, problem]}
+	var read: Dictionary = NativeLibrary.create(&"LobeImageFile").call(
+		"load_panorama", source, options["layer"], LARGEST_SIDE
+	)
+	if read.has("error"):
+		read["error"] = name_by_project(read["error"], source)
+	return read
+
+
+## The light of a panorama as [method read_file] gives it, or a sentence that says
+## why there is none. What there is to say of light that is lost is added to its warnings.
 static func filter(read: Dictionary, options: Dictionary, progress: Progress) -> Variant:
-	var width: int = read["width"]
-	var height: int = read["height"]
-	var data: PackedByteArray = read["data"]
-	var image := Image.create_from_data(width, height, false, Image.FORMAT_RGBAH, data)
 	var kernel: Pyramid.Filter = options["filter"]
-	var request := PanoramaFilter.make_request(image, options["size"] as int, kernel)
+	var extent := Vector2i(read["width"] as int, read["height"] as int)
+	var request := PanoramaFilter.make_linear_request(
+		read["pixels"] as PackedFloat32Array, extent, options["size"] as int, kernel
+	)
+	request["exposure"] = options["exposure"]
+	request["max_sources"] = options["max_sources"]
 	var task := NativeLibrary.create(&"LobeLightFilter")
 	if task.call(&"start", request):
 		while task.call(&"is_running"):
@@ -133,6 +156,7 @@ static func filter(read: Dictionary, options: Dictionary, progress: Progress) ->
 	if result.is_empty():
 		var error: String = task.call(&"get_error")
 		return error if error else "The import was cancelled."
+	(read["warnings"] as Array).append_array(result["warnings"] as Array)
 	var light: LobeLight = PanoramaFilter.make_light(request, result)
 	var problem := LightFormats.convert_light(light, options["format"] as int)
 	return problem if problem else light

@@ -47,6 +47,7 @@ func _filter(environment: LobeEnvironment3D) -> Variant:
 	var request := PanoramaFilter.make_request(
 		image, environment.size, environment.filter as Pyramid.Filter
 	)
+	request["max_sources"] = environment.max_sources
 	_task = NativeLibrary.create(&"LobeLightFilter")
 	if _task.call(&"start", request):
 		var tree := Engine.get_main_loop() as SceneTree

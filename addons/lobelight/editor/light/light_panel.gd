@@ -106,7 +106,14 @@ static func _describe(light: LobeLight) -> String:
 		"the scene's own file" if path.is_empty() or path.contains("::") else path.get_file()
 	)
 	var bytes := String.humanize_size(LightFile.count_bytes(light))
-	return "Baked: %d texels, %s, in %s." % [light.size, bytes, place]
+	var suns := _describe_sources(light.count_sources())
+	return "Baked: %d texels%s, %s, in %s." % [light.size, suns, bytes, place]
+
+
+static func _describe_sources(count: int) -> String:
+	if count == 0:
+		return ""
+	return " and a sun or lamp" if count == 1 else " and %d suns or lamps" % count
 
 
 func _on_failed(failed_node: Node3D, message: String) -> void:

@@ -18,19 +18,29 @@ const _NAMES: Dictionary[Pyramid.Filter, String] = {
 static func make_request(
 	panorama: Image, size := 0, filter := Pyramid.Filter.DISC, as_sky := false
 ) -> Dictionary:
-	var width := panorama.get_width()
-	var face_size := size if size > 0 else Pyramid.automatic_size_of(width)
 	var floats := panorama.duplicate() as Image
 	floats.clear_mipmaps()
 	if floats.is_compressed():
 		floats.decompress()
 	floats.convert(Image.FORMAT_RGBF)
+	var request := make_linear_request(
+		floats.get_data().to_float32_array(), panorama.get_size(), size, filter
+	)
+	request["srgb"] = panorama.get_format() not in Pyramid.LINEAR_FORMATS
+	request["as_sky"] = as_sky
+	return request
+
+
+## The same for red, green and blue of linear light, of any brightness.
+static func make_linear_request(
+	pixels: PackedFloat32Array, extent: Vector2i, size: int, filter: Pyramid.Filter
+) -> Dictionary:
+	var width := extent.x
+	var face_size := size if size > 0 else Pyramid.automatic_size_of(width)
 	return {
-		"pixels": floats.get_data().to_float32_array(),
+		"pixels": pixels,
 		"width": width,
-		"height": panorama.get_height(),
-		"srgb": panorama.get_format() not in Pyramid.LINEAR_FORMATS,
-		"as_sky": as_sky,
+		"height": extent.y,
 		"size": face_size,
 		"filter": _NAMES[filter],
 		"samples": Pyramid.count_samples(width, face_size),
@@ -51,4 +61,6 @@ static func make_light(request: Dictionary, result: Dictionary) -> LobeLight:
 	light.level_variance = request["level_variance"]
 	light.base_variance = request["base_variance"]
 	light.is_even = true
+	if result["source_count"] > 0:
+		light.source_texels = result["sources"]
 	return light

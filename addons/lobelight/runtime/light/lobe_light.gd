@@ -17,16 +17,20 @@ const FORMATS: Array[Image.Format] = [
 ]
 ## Narrowest widths of lobes that never need what is finer than [member coarse].
 const COARSE_WIDTH := 0.044
+## Texels of [member sources].
+const SOURCES_SIZE := Vector2i(4, 3)
 # A unit vector's largest component is at least this.
 const _LEAST_COMPONENT := 0.57735027
 const _FACES := 6
-# Of the saved form; the first had no checksum and half floats only.
-const _VERSION := 2
+# Of the saved form. The first had no checksum and half floats only, the second no sources; lights
+# without any still have that one.
+const _VERSION := 3
+const _VERSION_WITHOUT_SOURCES := 2
 # Of what is saved as single floats.
 const _ROUNDING := 1e-3
 
 ## The form of what is saved.
-@export_storage var version := _VERSION
+@export_storage var version := _VERSION_WITHOUT_SOURCES
 ## The faces +X −X +Y −Y +Z −Z with all their levels, linear radiance in one of [constant FORMATS]:
 ## what is saved. Empty while the light is on the GPU only.
 @export_storage var faces: Array[Image] = []:
@@ -59,6 +63,14 @@ const _ROUNDING := 1e-3
 ## Of faces in blocks: their coarser levels once more, with shared exponents, for materials whose
 ## lobes are all wide. Blocks show the contrasts in these levels badly, and the levels take little.
 @export_storage var coarse: LobeLight
+## The texels of [member sources], red, green, blue and alpha, row by row: what is saved. Empty if
+## there are no sources, or while they are on the GPU only.
+@export_storage var source_texels: PackedFloat32Array = []:
+	set(value):
+		source_texels = value
+		sources = null
+		_is_checked = false
+		emit_changed()
 ## What [method find_checksum] found when the light was saved; empty if nothing is to be checked.
 @export_storage var checksum := ""
 
@@ -79,7 +91,19 @@ var cubemap: TextureLayered:
 ## 1    energy: the integral of the radiance over the solid angle, linear; 0 for no light
 ## 2    what the direction of row 0 lacks for being exact, times 1024
 ## [/codeblock]
-var sources: Texture2D
+var sources: Texture2D:
+	get:
+		if sources == null and source_texels.size() == 4 * SOURCES_SIZE.x * SOURCES_SIZE.y:
+			sources = ImageTexture.create_from_image(
+				Image.create_from_data(
+					SOURCES_SIZE.x,
+					SOURCES_SIZE.y,
+					false,
+					Image.FORMAT_RGBAF,
+					source_texels.to_byte_array()
+				)
+			)
+		return sources
 ## From the light to the world; orthonormal.
 var rotation := Basis.IDENTITY
 ## A factor for the radiance.
@@ -139,7 +163,7 @@ func get_problem() -> String:
 
 ## Makes the light ready to be saved: with the checksum of what it has now.
 func seal() -> void:
-	version = _VERSION
+	version = _VERSION_WITHOUT_SOURCES if source_texels.is_empty() else _VERSION
 	if coarse != null:
 		coarse.seal()
 	checksum = find_checksum()
@@ -153,6 +177,9 @@ func find_checksum() -> String:
 	hashing.update(
 		var_to_bytes([size, level_variance, base_variance, is_even, axes, is_of_world, base_energy])
 	)
+	# Lights without sources have the checksum that they had before there were any.
+	if not source_texels.is_empty():
+		hashing.update(source_texels.to_byte_array())
 	for face in faces:
 		hashing.update(face.get_data())
 	return hashing.finish().hex_encode()
@@ -166,7 +193,31 @@ func _find_odd_number() -> String:
 	var is_rotation := axes.is_conformal() and absf(axes.determinant() - 1.0) < _ROUNDING
 	if not is_rotation or not is_finite(base_energy) or base_energy < 0.0:
 		return "The light does not say how it lies or how bright it is: bake it again."
+	if not _has_sound_sources():
+		return "The light's sources are not what sources are: bake it again."
 	return ""
+
+
+# Energies are not negative, and what has one has a direction.
+func _has_sound_sources() -> bool:
+	if source_texels.is_empty():
+		return true
+	var row := 4 * SOURCES_SIZE.x
+	if source_texels.size() != row * SOURCES_SIZE.y:
+		return false
+	for number in source_texels:
+		if not is_finite(number):
+			return false
+	for at in range(0, row, 4):
+		var energy := Vector3(
+			source_texels[row + at], source_texels[row + at + 1], source_texels[row + at + 2]
+		)
+		var direction := Vector3(source_texels[at], source_texels[at + 1], source_texels[at + 2])
+		if energy[energy.min_axis_index()] < 0.0 or source_texels[at + 3] < 0.0:
+			return false
+		if energy != Vector3.ZERO and absf(direction.length_squared() - 1.0) > _ROUNDING:
+			return false
+	return true
 
 
 func _find_damage() -> String:
@@ -204,6 +255,15 @@ func get_defines() -> PackedStringArray:
 	return defines
 
 
+## How many of the [member source_texels] shine.
+func count_sources() -> int:
+	var count := 0
+	var row := 4 * SOURCES_SIZE.x
+	for at in range(row, mini(2 * row, source_texels.size()), 4):
+		count += 1 if source_texels[at] + source_texels[at + 1] + source_texels[at + 2] > 0.0 else 0
+	return count
+
+
 ## Whether the light is that of a box.
 func has_box() -> bool:
 	return box_size != Vector3.ZERO
@@ -222,6 +282,7 @@ func at_another_place() -> LobeLight:
 	other.base_energy = base_energy
 	other.coarse = coarse
 	other.cubemap = cubemap
+	other.source_texels = source_texels
 	other.sources = sources
 	return other
 
