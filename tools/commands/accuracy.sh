@@ -23,7 +23,7 @@ usage: ./dev accuracy [--quick] [--maps FILE,FILE…] [OPTIONS]
                  below build/accuracy with --quick, --maps, --only, --size or another renderer)
 
 A run that was stopped goes on: cases that DIR/results.json has, measured with the same sources and maps, are kept.
-Takes about twenty minutes on two cores. The metric is that of ./dev compare.
+Takes about half an hour on two cores. The metric is that of ./dev compare.
 USAGE
 }
 

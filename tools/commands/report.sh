@@ -27,7 +27,7 @@ usage: ./dev report [--quick] [--minutes N] [--device] [--renderers R,R…] [--m
                  (default: mobile, 128 x 128, 256 samples, docs/report/rooms): some minutes
 
 A run that was stopped goes on: cases that DIR/compare/results.json has, measured with the same sources and maps, are
-kept. Takes about half an hour on two cores. The metric is that of ./dev compare, and the pictures are drawn by its code.
+kept. Takes most of an hour on two cores. The metric is that of ./dev compare, and the pictures are drawn by its code.
 Methods, materials, maps and settings are those of tools/report/cases.py.
 USAGE
 }

@@ -59,6 +59,7 @@ COVERAGES = (0.77, 0.9)
 FIS_BIASES = (1.0,)
 # Beside the best, which is compared everywhere; see bake/comparators/fis.gd.
 FIS_FORMS = ("published", "integral")
+FORM_MATERIALS = (ISOTROPIC[2], ANISOTROPIC[1], OTHER[0], OTHER[3])
 FIS_METHODS = ("fis8", "fis16", "fis40", "fis40g")
 FILTERS = ("box", "binomial", "gaussian", "disc")
 USUAL_FILTER = "disc"
@@ -189,7 +190,7 @@ def _studies(renderer, studied, covered, isotropic_views, anisotropic_views, fac
     for bias in FIS_BIASES:
         plan += cases("bias", studied, FIS_METHODS, {"fis_bias": bias})
     for form in FIS_FORMS:
-        plan += cases("form", (*studied, *OTHER), FIS_METHODS, {"fis_form": form})
+        plan += cases("form", FORM_MATERIALS, FIS_METHODS, {"fis_form": form})
     for name in FILTERS:
         if name != USUAL_FILTER:
             plan += cases("filter", studied, ("gmm8", "gmm16", "fis40g"), {"filter": name})
