@@ -209,10 +209,12 @@ run_setup() {
   judge setup
 }
 
-# What ./dev report makes of measurements.
+# What ./dev report and ./dev accuracy make of measurements.
 run_report() {
   run_logged report in_time "$PYTHON" "$ROOT/tests/commands/report_test.py"
   judge report
+  run_logged accuracy-report in_time "$PYTHON" "$ROOT/tests/commands/accuracy_report_test.py"
+  judge accuracy-report
 }
 
 # ./dev report from end to end, small.
