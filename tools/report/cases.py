@@ -16,7 +16,7 @@ OURS = ("gmm", "line", "auto")
 # recorded with the reason.
 FAMILIES = {
     "Lobelight, tables": ("gmm1", "gmm2", "gmm3", "gmm4", "gmm8", "gmm16", "gmm24", "gmm32"),
-    "Lobelight, lines": ("line1", "line2", "line4", "line8", "line16", "line24", "line32"),
+    "Lobelight, lines": ("line8", "line16", "line24", "line32"),
     "Lobelight, automatic": ("auto",),
     "Töral 2015": ("toral8", "toral16"),
     "importance sampling": ("fis8", "fis16", "fis40"),
