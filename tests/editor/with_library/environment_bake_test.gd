@@ -6,6 +6,7 @@ extends GdUnitTestSuite
 const Kit := preload("res://tests/editor/editor_kit.gd")
 const LightBakes := preload("res://addons/lobelight/editor/light/light_bakes.gd")
 const LightPanel := preload("res://addons/lobelight/editor/light/light_panel.gd")
+const PanoramaImporter := preload("res://addons/lobelight/editor/import/panorama_importer.gd")
 
 const FOLDER := "res://environments"
 const SCENE := "res://environments/yard.tscn"
@@ -74,6 +75,47 @@ func _read() -> Color:
 	if face.is_compressed():
 		face.decompress()
 	return face.get_pixel(3, 3)
+
+
+# As the import dock does it.
+func _import_sun(path: String, exposure: float) -> void:
+	var pixels := PackedFloat32Array()
+	pixels.resize(256 * 128 * 3)
+	pixels.fill(1.0)
+	for texel: int in [64 * 256 + 30, 64 * 256 + 31, 65 * 256 + 30, 65 * 256 + 31]:
+		for channel in 3:
+			pixels[3 * texel + channel] = 1e6
+	assert_str(LobeImageFile.save_exr(path, 256, 128, pixels)).is_empty()
+	var config := ConfigFile.new()
+	config.set_value("remap", "importer", PanoramaImporter.NAME)
+	config.set_value("params", "exposure", exposure)
+	config.save(path + ".import")
+	EditorInterface.get_resource_filesystem().update_file(path)
+	EditorInterface.get_resource_filesystem().reimport_files([path])
+
+
+func test_a_sun_has_all_of_its_light_whatever_the_texture_holds() -> void:
+	var path := FOLDER.path_join("sun.exr")
+	_import_sun(path, -1.0)
+	_environment.panorama = load(path)
+	_environment.size = 32
+	var half := _environment.panorama.get_image().get_pixel(30, 64)
+	assert_float(half.r).is_equal(65504.0)
+	await _bake()
+	assert_array(_messages).is_empty()
+	var light: LobeLight = ResourceLoader.load(LIGHT, "", ResourceLoader.CACHE_MODE_IGNORE_DEEP)
+	assert_str(light.get_problem()).is_empty()
+	assert_int(light.count_sources()).is_equal(1)
+	var texel := PI / 128.0 * PI / 128.0
+	assert_float(light.source_texels[16] / (4.0 * 0.5e6 * texel)).is_between(0.999, 1.001)
+	var panel := LightPanel.make(_bakes, _environment)
+	add_child(panel)
+	assert_str(panel.get_source()).contains("32 texels and a sun or lamp")
+	panel.free()
+	_environment.max_sources = 0
+	await _bake()
+	light = ResourceLoader.load(LIGHT, "", ResourceLoader.CACHE_MODE_IGNORE_DEEP)
+	assert_int(light.count_sources()).is_equal(0)
 
 
 func test_a_panorama_is_baked_saved_undone_and_redone() -> void:

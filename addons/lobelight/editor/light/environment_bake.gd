@@ -6,6 +6,7 @@ extends RefCounted
 const LightSettings := preload("../../runtime/light/light_settings.gd")
 const LiveLight := preload("../../runtime/live/live_light.gd")
 const NativeLibrary := preload("../bake/native_library.gd")
+const PanoramaFile := preload("../import/panorama_file.gd")
 const PanoramaFilter := preload("panorama_filter.gd")
 const Pyramid := preload("../../runtime/pyramid/pyramid.gd")
 
@@ -41,12 +42,17 @@ func get_progress() -> float:
 
 
 func _filter(environment: LobeEnvironment3D) -> Variant:
-	var image := environment.panorama.get_image()
-	if image == null or image.is_empty():
-		return "The panorama's texels cannot be read: take another texture, or import its file again."
-	var request := PanoramaFilter.make_request(
-		image, environment.size, environment.filter as Pyramid.Filter
-	)
+	var kernel := environment.filter as Pyramid.Filter
+	# Its texture ends at 65504.
+	var request := PanoramaFile.make_request(environment.panorama, environment.size, kernel)
+	if request.is_empty():
+		var image := environment.panorama.get_image()
+		if image == null or image.is_empty():
+			return (
+				"The panorama's texels cannot be read: take another texture, or import its file "
+				+ "again."
+			)
+		request = PanoramaFilter.make_request(image, environment.size, kernel)
 	request["max_sources"] = environment.max_sources
 	_task = NativeLibrary.create(&"LobeLightFilter")
 	if _task.call(&"start", request):
@@ -69,6 +75,7 @@ func _draw(environment: LobeEnvironment3D) -> Variant:
 	settings.on_panorama_changed = func() -> void: pass
 	settings.filter = environment.filter
 	settings.size = environment.size
+	settings.max_sources = environment.max_sources
 	settings.capture.cull_mask = environment.capture_cull_mask
 	settings.capture.near = environment.capture_near
 	settings.capture.far = environment.capture_far
@@ -77,9 +84,13 @@ func _draw(environment: LobeEnvironment3D) -> Variant:
 	var error := drawing.error
 	var drawn := drawing.light
 	var faces: Array[Image] = []
+	var sources: PackedFloat32Array = []
 	if is_drawn:
 		drawing.place()
 		faces = drawn.faces if drawing.chain == null else drawing.chain.cube.get_faces()
+		sources = _read_sources(drawn)
+		if drawn.sources != null and sources.is_empty():
+			faces = []
 	drawing.end()
 	if faces.is_empty():
 		return error if error else "The light could not be read back from the GPU."
@@ -89,8 +100,20 @@ func _draw(environment: LobeEnvironment3D) -> Variant:
 	light.level_variance = drawn.level_variance
 	light.base_variance = drawn.base_variance
 	light.is_even = drawn.is_even
+	light.source_texels = sources
 	light.is_of_world = not settings.takes_panorama()
 	if light.is_of_world:
 		light.axes = drawn.rotation
 	light.base_energy = drawn.energy
 	return light
+
+
+# Of a light on the GPU; none where it has none, or where they cannot be read.
+static func _read_sources(light: LobeLight) -> PackedFloat32Array:
+	var image: Image = null
+	if light.sources != null:
+		image = RenderingServer.texture_2d_get(light.sources.get_rid())
+	if image == null or image.is_empty():
+		return []
+	image.convert(Image.FORMAT_RGBAF)
+	return image.get_data().to_float32_array()
