@@ -70,6 +70,8 @@ func _make_material(variant: Dictionary) -> Material:
 			# Without a table, the material takes those of the ready set.
 			if variant.has("lobes"):
 				material.set(&"table", _make_table(variant))
+			if variant.get("sources", false):
+				_light_with_sources(material as LobeMaterial3D)
 			if variant.get("placed", false):
 				material = _make_placed(material as LobeMaterial3D)
 		"shader":
@@ -81,6 +83,13 @@ func _make_material(variant: Dictionary) -> Material:
 		assert(property in material, property)
 		material.set(property, _make_value(properties[property]))
 	return material
+
+
+func _light_with_sources(material: LobeMaterial3D) -> void:
+	material.light = LobeLight.make_dark(true)
+	material.light.sources = ImageTexture.create_from_image(
+		Image.create_empty(4, 3, false, Image.FORMAT_RGBAF)
+	)
 
 
 # What the material becomes where there are probes.
@@ -113,6 +122,7 @@ func _make_table(variant: Dictionary) -> LobeTable:
 	var azimuths: int = 1 if variant.get("isotropic", false) else 2
 	var rows: int = lobes * azimuths * (2 if variant.get("coloured", false) else 1)
 	var table := LobeTable.new()
+	table.brdf = variant.get("brdf", "")
 	table.lobe_count = lobes
 	table.views = Vector2i(2, azimuths)
 	table.image = Image.create_empty(2, rows, false, Image.FORMAT_RGBAH)
