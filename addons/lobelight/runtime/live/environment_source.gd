@@ -11,6 +11,8 @@ const LightSettings := preload("../light/light_settings.gd")
 const LiveTextures := preload("../light/live_textures.gd")
 const FaceViews := preload("../pyramid/face_views.gd")
 const Pyramid := preload("../pyramid/pyramid.gd")
+const HandedSources := preload("../pyramid/handed_sources.gd")
+const SourceSearch := preload("sources/source_search.gd")
 const PyramidChain := preload("../pyramid/pyramid_chain.gd")
 const WorldLight := preload("../light/world_light.gd")
 
@@ -23,6 +25,9 @@ const DEFAULT_SIZE := 256
 # Pixels of a view along the side of a texel. Skies have suns of few texels; scenes cost more.
 const _SKY_SAMPLES := 2
 const _SCENE_SAMPLES := 1
+# Frames after which sources that are no more are believed to have gone: materials are asked for
+# other shaders then, which is not to happen for each cloud.
+const _PATIENCE := 30
 
 # 0 or 1 once it is known.
 static var _is_compatible := -1
@@ -34,6 +39,9 @@ var _world: WorldLight
 # What the last chain was made for, and the light that it gives.
 var _key: Array = []
 var _light: LobeLight
+# Whether sources are taken out, and materials draw them; for how many frames there have been none.
+var _takes_sources := false
+var _gone := 0
 
 
 func _init(settings: LightSettings) -> void:
@@ -103,9 +111,12 @@ func make_chain(chain: PyramidChain) -> PyramidChain:
 	if chain != null and key == _key:
 		if chain.views != null:
 			_place_views(chain.views)
+		if chain.search != null:
+			(chain.search as SourceSearch).take_out(_takes_sources)
 		return chain
 	# A chain that was given back has left its cube map with the light.
 	var old := _light.cubemap if chain == null and key == _key and _light != null else null
+	var old_sources := _light.sources if old != null else null
 	_key = key
 	if old == null:
 		_light = null
@@ -116,14 +127,29 @@ func make_chain(chain: PyramidChain) -> PyramidChain:
 		var views := _world.make_views(samples, size)
 		_place_views(views)
 		chain = PyramidChain.new(views)
+		if _settings.max_sources > 0:
+			chain.search = SourceSearch.in_views(
+				chain.pyramid,
+				views.get_textures(),
+				samples * size,
+				_settings.max_sources,
+				old_sources
+			)
 		chain.pyramid.set_up_views(views.get_textures(), samples, size, filter)
 	else:
 		var panorama := _find_panorama()
 		var size := _settings.size if _settings.size > 0 else Pyramid.automatic_size(panorama)
 		chain = PyramidChain.new()
+		if _settings.max_sources > 0 and Pyramid.is_linear(panorama):
+			var as_sky := _kind == Kind.SKY_PANORAMA
+			chain.search = SourceSearch.in_panorama(
+				chain.pyramid, panorama, as_sky, _settings.max_sources, old_sources
+			)
 		chain.pyramid.set_up_panorama(panorama, size, filter, _kind == Kind.SKY_PANORAMA)
 		if not panorama.changed.is_connected(_settings.on_panorama_changed):
 			panorama.changed.connect(_settings.on_panorama_changed)
+	if chain.search != null:
+		(chain.search as SourceSearch).take_out(_takes_sources)
 	chain.make_cube(old)
 	if _settings.measure_cost:
 		chain.measure()
@@ -145,7 +171,43 @@ func get_light(chain: PyramidChain) -> LobeLight:
 		_light.level_variance = Pyramid.LEVEL_VARIANCES[chain.pyramid.filter]
 		_light.base_variance = chain.pyramid.level_0_variance
 		_light.is_even = Pyramid.is_round(chain.pyramid.filter)
+	var search := chain.search as SourceSearch
+	_light.sources = search.handed.texture if search != null and search.takes_out else null
 	return _light
+
+
+## Whether the next light will have sources taken out of it.
+func takes_sources() -> bool:
+	return _takes_sources and _settings.max_sources > 0
+
+
+## Whether another update is needed, because a search has found sources that are still in the
+## light, or has found none for some time that are out of it. To be called once a frame.
+func follow_search(chain: PyramidChain) -> bool:
+	var search := chain.search as SourceSearch
+	if search == null:
+		return false
+	match search.handed.take_answer():
+		HandedSources.Answer.SOME:
+			_gone = 0
+			if not _takes_sources:
+				_takes_sources = true
+				return true
+		HandedSources.Answer.NONE:
+			_gone = maxi(_gone, 1)
+	if _gone > 0 and _takes_sources:
+		_gone += 1
+		_takes_sources = _gone <= _PATIENCE
+		return not _takes_sources
+	return false
+
+
+## Whether a search may still ask for another update.
+func awaits_search(chain: PyramidChain) -> bool:
+	var search := chain.search as SourceSearch
+	if search == null:
+		return false
+	return search.handed.awaits_answer() or _gone > 0 and _takes_sources
 
 
 ## Whether what it shows does not come with the frame itself, as pictures of other viewports do.
@@ -228,11 +290,21 @@ func _make_key() -> Array:
 	if _kind == Kind.EVEN:
 		return [_kind, _settings.filter, _world.find_even_light()]
 	if _kind >= Kind.SKY_VIEWS:
-		return [_kind, _settings.size, _settings.filter, _settings.measure_cost]
+		return [
+			_kind, _settings.size, _settings.filter, _settings.measure_cost, _settings.max_sources
+		]
 	var panorama := _find_panorama()
 	var texture := panorama.get_rid() if panorama != null else RID()
 	var width := panorama.get_width() if panorama != null else 0
-	return [_kind, _settings.size, _settings.filter, _settings.measure_cost, texture, width]
+	return [
+		_kind,
+		_settings.size,
+		_settings.filter,
+		_settings.measure_cost,
+		_settings.max_sources,
+		texture,
+		width
+	]
 
 
 # Asked in each frame.

@@ -61,6 +61,8 @@ var _is_watching := false
 # captures since these began without any.
 var _echoes := 0
 var _lit_by_itself := false
+# What materials draw besides the light's faces.
+var _sources: Texture2D
 # Whether it has been told what the light lacks, and when, in milliseconds, it is to be.
 var _is_told := false
 var _tell_time := 0
@@ -210,6 +212,7 @@ func _rest_if_settled() -> void:
 func _on_frame_pre_draw() -> void:
 	# Hidden nodes, and those that wait for another one to leave, make nothing.
 	if _settings.is_active and not _running:
+		_stale = chain != null and source.follow_search(chain) or _stale
 		_start_if_due()
 	if _running:
 		if chain != null:
@@ -218,7 +221,7 @@ func _on_frame_pre_draw() -> void:
 		_idle = 0
 		if _count == 1 and _settings.is_active and _is_first():
 			_draw_ahead()
-	elif chain != null and not chain.draw_for_clock():
+	elif chain != null and not chain.draw_for_clock() and not source.awaits_search(chain):
 		_idle += 1
 		var is_over := _settings.update_mode == LightSettings.UpdateMode.ONCE
 		if _idle > _IDLE_FRAMES or is_over and not _settings.measure_cost:
@@ -231,7 +234,7 @@ func _on_frame_pre_draw() -> void:
 # Has the first light in the first frame that is seen, where that is possible.
 func _draw_ahead() -> void:
 	var is_even := Pyramid.is_round(_settings.filter as Pyramid.Filter)
-	if LightRegistry.needs_variants(_settings.node.get_world_3d(), is_even):
+	if LightRegistry.needs_variants(_settings.node.get_world_3d(), is_even, source.takes_sources()):
 		return
 	if chain == null or source.is_there_before_the_frame() and FirstFrame.draw():
 		_take_drawn()
@@ -375,8 +378,10 @@ func _take_drawn() -> void:
 
 func _set_light(drawn: LobeLight) -> void:
 	# Without a light, nobody has to wait for it any longer.
-	var is_other := drawn != light or is_in_the_dark or drawn == null
+	var sources := drawn.sources if drawn != null else null
+	var is_other := drawn != light or is_in_the_dark or drawn == null or sources != _sources
 	light = drawn
+	_sources = sources
 	_lit_by_itself = _lit_by_itself and drawn != null
 	is_in_the_dark = false
 	if drawn != null and _kind == EnvironmentSource.Kind.EVEN:

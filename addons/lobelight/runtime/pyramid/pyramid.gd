@@ -60,6 +60,9 @@ var level_0_variance := 0.0
 ## The passes, the finest level first.
 var levels: Array[CanvasPass] = []
 
+# Of level 0: its material, and what shader draws it where nothing is taken out.
+var _source_material: RID
+var _source_shader: Shader
 # Of a texel, by level.
 var _fetches: Array[float] = []
 # Keeps it on the GPU until it has been drawn.
@@ -79,6 +82,11 @@ static func is_round(filter: Filter) -> bool:
 ## Why levels cannot be made by a filter in this export; empty if they can.
 static func find_loss(used_filter: Filter) -> String:
 	return "" if is_round(used_filter) else OnDemand.find_loss(_REDUCE_SHADER, OnDemand.FILTERS)
+
+
+## Whether a panorama holds linear light; sRGB otherwise.
+static func is_linear(panorama: Texture2D) -> bool:
+	return RenderingServer.texture_get_format(panorama.get_rid()) in LINEAR_FORMATS
 
 
 ## The size chosen for a panorama where none is asked for: its width up to a power of two. That is
@@ -121,26 +129,47 @@ func set_up_panorama(
 ) -> void:
 	_panorama = panorama
 	level_0_variance = base_variance(panorama, face_size, used_filter)
-	var format := RenderingServer.texture_get_format(panorama.get_rid())
-	var parameters: Dictionary[StringName, Variant] = {
-		&"panorama": panorama.get_rid(),
-		&"panorama_is_srgb": format not in LINEAR_FORMATS,
-		&"panorama_as_sky": as_sky,
-		&"face_size": face_size,
-		&"samples": count_samples(panorama.get_width(), face_size),
-		&"kernel_variance": level_0_variance,
-		&"shrinking_variance": _TENT_VARIANCE,
-	}
+	var parameters := describe_panorama(panorama, as_sky)
+	parameters[&"face_size"] = face_size
+	parameters[&"samples"] = count_samples(panorama.get_width(), face_size)
+	parameters[&"kernel_variance"] = level_0_variance
+	parameters[&"shrinking_variance"] = _TENT_VARIANCE
 	_fetches = [_PLACE_FETCHES + _count_panorama_fetches(panorama.get_width(), face_size)]
 	_set_up_levels(face_size, used_filter, PanoramaShader, parameters)
+
+
+## The parameters of shaders/panorama.gdshaderinc.
+static func describe_panorama(panorama: Texture2D, as_sky: bool) -> Dictionary[StringName, Variant]:
+	return {
+		&"panorama": panorama.get_rid(),
+		&"panorama_is_srgb": not is_linear(panorama),
+		&"panorama_as_sky": as_sky,
+	}
+
+
+## The parameters of shaders/views.gdshaderinc.
+static func describe_views(views: Array[RID]) -> Dictionary[StringName, Variant]:
+	var parameters: Dictionary[StringName, Variant] = {}
+	for face in 6:
+		parameters[StringName("view_%d" % face)] = views[face]
+	return parameters
+
+
+## From now on level 0 is drawn by another shader, which has more parameters than its own;
+## [code]null[/code] for that one again.
+func draw_level_0_by(shader: Shader, parameters: Dictionary[StringName, Variant] = {}) -> void:
+	var used := shader if shader != null else _source_shader
+	RenderingServer.material_set_shader(_source_material, used.get_rid())
+	for name: StringName in parameters:
+		RenderingServer.material_set_param(_source_material, name, parameters[name])
 
 
 ## Makes level 0 from six square views of [param samples] times [param face_size] pixels, textures
 ## of the rendering server as [code]six_views.gd[/code] draws them.
 func set_up_views(views: Array[RID], samples: int, face_size: int, used_filter: Filter) -> void:
-	var parameters: Dictionary[StringName, Variant] = {&"face_size": face_size, &"samples": samples}
-	for face in 6:
-		parameters[StringName("view_%d" % face)] = views[face]
+	var parameters := describe_views(views)
+	parameters[&"face_size"] = face_size
+	parameters[&"samples"] = samples
 	_fetches = [_PLACE_FETCHES + samples * samples]
 	var shader: Shader = OnDemand.fetch(_VIEWS_SHADER, OnDemand.SKIES)
 	_set_up_levels(face_size, used_filter, shader, parameters)
@@ -174,7 +203,8 @@ func _set_up_levels(
 ) -> void:
 	size = face_size
 	filter = used_filter
-	_add_level(size, source, parameters)
+	_source_shader = source
+	_source_material = _add_level(size, source, parameters)
 	var level_size := size >> 1
 	while level_size > 0:
 		var level: Dictionary[StringName, Variant] = {
@@ -205,8 +235,8 @@ func _count_panorama_fetches(width: int, face_size: int) -> float:
 
 func _add_level(
 	level_size: int, shader: Shader, parameters: Dictionary[StringName, Variant]
-) -> void:
+) -> RID:
 	var extent := level_size * Vector2i(COLUMNS, ROWS)
 	var drawn := CanvasPass.new(extent, true)
-	drawn.add_rect(Rect2i(Vector2i.ZERO, extent), shader, parameters)
 	levels.append(drawn)
+	return drawn.add_rect(Rect2i(Vector2i.ZERO, extent), shader, parameters)

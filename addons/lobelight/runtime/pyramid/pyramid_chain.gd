@@ -12,6 +12,7 @@ enum Pace { WHOLE, FACE_BY_FACE, SLICED }
 
 const ChainSlices := preload("chain_slices.gd")
 const FaceViews := preload("face_views.gd")
+const LightSearch := preload("light_search.gd")
 const OnDemand := preload("../on_demand.gd")
 const Pyramid := preload("pyramid.gd")
 const PyramidCube := preload("pyramid_cube.gd")
@@ -30,6 +31,8 @@ const _SHORTEST_TIME := 0.05
 
 ## Null if the light comes from a panorama.
 var views: FaceViews
+## What looks for sources, made before the pyramid is set up; null if nothing does.
+var search: LightSearch
 var pyramid := Pyramid.new()
 var cube: PyramidCube
 ## Milliseconds that the processor spent on the last update's transfer to the cube map.
@@ -96,6 +99,9 @@ func draw(slice: int) -> void:
 	if slice < 0:
 		for face in 6 if views != null else 0:
 			views.draw(face)
+		if search != null:
+			search.draw_rows(0, search.count_rows())
+			search.draw_last()
 		pyramid.draw()
 		for part in cube.slices:
 			cube.draw(part)
@@ -103,6 +109,10 @@ func draw(slice: int) -> void:
 		return
 	for face in _slices[slice].views:
 		views.draw(face)
+	if _slices[slice].search.y > 0:
+		search.draw_rows(_slices[slice].search.x, _slices[slice].search.y)
+	if _slices[slice].ends_search:
+		search.draw_last()
 	for rows in _slices[slice].rows:
 		pyramid.draw_rows(rows.x, rows.y, rows.z)
 		if rows.x == 0:
@@ -119,9 +129,11 @@ func receive(slice: int) -> bool:
 	var received := true
 	for part in _slices[slice].parts if slice >= 0 else PackedInt32Array(range(cube.slices)):
 		received = cube.receive(part) and received
+	var is_last := slice < 0 or slice == _slices.size() - 1
+	if is_last and search != null:
+		search.receive()
 	transfer_time += 0.001 * (Time.get_ticks_usec() - start)
 	# All of it takes what its slices take, so that these need not be measured each time.
-	var is_last := slice < 0 or slice == _slices.size() - 1
 	if _is_measured and is_last and (_pace != Pace.SLICED or _clock_time == 0.0):
 		_clock_frames = _CLOCK_FRAMES
 	return received
@@ -158,9 +170,9 @@ func _make_slices(pace: Pace) -> Array[ChainSlices.Slice]:
 	var faces := 6 if views != null else 0
 	if pace == Pace.SLICED:
 		var most := _budget * _speed if _budget > 0.0 else INF
-		return ChainSlices.spread(faces, pyramid, cube.slices, most)
+		return ChainSlices.spread(faces, search, pyramid, cube.slices, most)
 	var at_once := cube.slices if pace == Pace.WHOLE else 1
-	return ChainSlices.at_once(faces, pyramid, cube.slices, at_once)
+	return ChainSlices.at_once(faces, search, pyramid, cube.slices, at_once)
 
 
 # To be called when the finest level is drawn, with what that takes. The engine tells of a draw when
@@ -200,6 +212,8 @@ func _get_viewports() -> Array[RID]:
 	var viewports: Array[RID] = []
 	if views != null:
 		viewports.append_array(views.viewports)
+	if search != null:
+		viewports.append_array(search.get_viewports())
 	for level in pyramid.levels:
 		viewports.append(level.viewport)
 	viewports.append_array(cube.get_viewports())
