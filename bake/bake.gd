@@ -11,6 +11,8 @@ const OPTIONS: PackedStringArray = [
 	"views",
 	"method",
 	"refine",
+	"placement",
+	"reach",
 	"seed",
 	"threads",
 	"out",
@@ -55,6 +57,10 @@ func _recipe() -> Dictionary:
 		recipe = _read_recipe(_arguments.path("recipe"))
 	if _arguments.has("method"):
 		recipe["method"] = _arguments.text("method")
+	if _arguments.has("placement"):
+		recipe["placement"] = _arguments.text("placement")
+	if _arguments.has("reach"):
+		recipe["reach"] = _arguments.numbers("reach", 1, PackedFloat64Array([0]))[0]
 	if _arguments.has("refine"):
 		recipe["refine"] = _arguments.text("refine") == "yes"
 		if _arguments.text("refine") not in ["yes", "no"]:
@@ -179,13 +185,14 @@ func _summary(result: Dictionary, out: String) -> Dictionary:
 		"views": [result["views"].x, result["views"].y],
 		"method": result["method"],
 		"refine": result["refine"],
+		"placement": result["placement"],
 		"bytes": (result["data"] as PackedByteArray).size(),
 		"seconds": result["seconds"],
 		"iterations": Array(result["iterations"]),
 		"log_likelihood": Array(result["log_likelihood"]),
 		"peak_memory_mb": _peak_memory_mb(),
 	}
-	for key: String in ["clamped", "asymmetry", "target", "predicted_psnr"]:
+	for key: String in ["reach", "clamped", "asymmetry", "target", "predicted_psnr"]:
 		if result.has(key):
 			summary[key] = result[key]
 	return summary

@@ -45,6 +45,27 @@ TEST_CASE("A fit needs no more memory than the formula says, and not much less")
   }
 }
 
+TEST_CASE("Looking at lobes along the highlight stays within the formula too") {
+  for (const Placement placement : {Placement::automatic, Placement::arc}) {
+    for (const int lobes : {1, 32}) {
+      for (const int threads : {1, 4}) {
+        Recipe recipe;
+        recipe.alpha = {0.02, 0.3};
+        recipe.views = {6, 4};
+        recipe.lobes = lobes;
+        recipe.threads = threads;
+        recipe.placement = placement;
+        FitOptions options;
+        options.nodes_per_axis = 16;
+        options.em.max_iterations = 5;
+        CAPTURE(lobes);
+        CAPTURE(threads);
+        CHECK(measured_peak(recipe, options) <= fit_memory_bound(recipe, options));
+      }
+    }
+  }
+}
+
 TEST_CASE("Many iterations and many views stay within the formula too") {
   Recipe recipe;
   recipe.alpha = {0.2, 0.2};

@@ -33,6 +33,11 @@ const REFUSED := [
 	["method", 1, "method is 1 (int)"],
 	["refine", 1, "refine is 1 (int), but must be true or false."],
 	["refine", "yes", 'refine is "yes" (String)'],
+	["placement", "line", 'placement is "line", which is not known; known are "auto", "em", "arc".'],
+	["placement", 1, "placement is 1 (int)"],
+	["reach", 0.1, "reach is 0.1, but must be between 0.5 and 32, or 0 for the best one."],
+	["reach", NAN, "reach is nan"],
+	["reach", "far", 'reach is "far" (String)'],
 	["seed", -1, "seed is -1 (int)"],
 	["seed", 0.5, "seed is 0.5 (float)"],
 	["threads", "all", 'threads is "all" (String)'],
@@ -75,6 +80,7 @@ func test_result_has_the_documented_shape() -> void:
 				"views",
 				"method",
 				"refine",
+				"placement",
 				"seed",
 				"width",
 				"height",
@@ -93,6 +99,7 @@ func test_result_has_the_documented_shape() -> void:
 	assert_that(table.views).is_equal(Vector2i(4, 3))
 	assert_str(table.method).is_equal("continuation")
 	assert_bool(table.refine).is_false()
+	assert_str(table.placement).is_equal("em")
 	assert_int(table.seed).is_equal(0)
 	assert_int(table.width).is_equal(4)
 	assert_int(table.height).is_equal(2 * 3)

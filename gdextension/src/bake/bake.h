@@ -26,7 +26,7 @@ struct TableRequest {
 
 struct BakedTable {
   std::string brdf;  // a model's name, or a file's without its folder
-  Recipe recipe;     // with the lobes that the table has
+  Recipe recipe;     // with the lobes that the table has, and where they are
   LobeTable table;
   FitReport report;
   std::vector<double> errors;  // view_errors(); none of refined tables, which hold no Gaussians

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "fit/picture_error.h"
 
 namespace lobelight {
 
@@ -15,7 +16,12 @@ std::size_t fit_memory_bound(const Recipe& recipe, const FitOptions& options) {
   const std::size_t nodes = axis * axis;
   const std::size_t iterations = count(options.em.max_iterations);
   const std::size_t threads = std::min(views, count(resolve_threads(recipe.threads)));
-  return 64 * 1024 + views * (32 * lobes + 16) +
+  // Two more tables and what they are compared by: it has slices of its own.
+  const std::size_t arcs =
+      looks_at_arcs(recipe, recipe.brdf, recipe.alpha)
+          ? 64 * views * lobes + PictureError::memory_bound(grid) + threads * 32 * 64 * 64
+          : 0;
+  return 64 * 1024 + arcs + views * (32 * lobes + 16) +
          threads * (96 * nodes + 4096 * (lobes + 1) + 32 * (iterations + 1));
 }
 

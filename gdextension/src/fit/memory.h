@@ -14,7 +14,9 @@ namespace lobelight {
 // report. Of the 96 N, 32 are a slice; 32 are what the first guess sorts by, or the slice again as
 // em_pass() wants it; 32 are for data of which nodes have to be left out. Per lobe the working
 // memory is a block's columns and what the acceleration remembers, per iteration the likelihood.
-// A measured BRDF's own data come on top, once. Threads' stacks are not counted.
+// Where lobes along the highlight are looked at as well (fit/placement.h), two more tables, 64
+// T·P·K, and what they are compared by, PictureError::memory_bound() and 128 KiB a thread, are
+// added. A measured BRDF's own data come on top, once. Threads' stacks are not counted.
 std::size_t fit_memory_bound(const Recipe& recipe, const FitOptions& options = {});
 
 }  // namespace lobelight

@@ -25,6 +25,8 @@ Recipe table_recipe(const SetRecipe& set, const glm::dvec2& alpha, const glm::iv
   recipe.alpha = alpha;
   recipe.lobes = set.lobes;
   recipe.views = views;
+  // Lobe k of all widths is one lobe, and round highlights have no arc.
+  recipe.placement = Placement::em;
   recipe.seed = set.seed;
   recipe.threads = set.threads;
   return recipe;

@@ -9,7 +9,9 @@
 #include "base/one_line.h"
 #include "base/parallel.h"
 #include "brdf/measured.h"
+#include "fit/arc.h"
 #include "fit/continuation.h"
+#include "fit/picture_error.h"
 
 namespace lobelight {
 
@@ -61,7 +63,60 @@ void fit_independently(const Brdf& brdf, const Recipe& recipe, const FitOptions&
   });
 }
 
+// Of the progress of a fit that also looks at arcs.
+constexpr double kArcShare = 0.1;
+// Arcs take the place of EM's lobes where they are better under both lights, and clearly under one:
+// what errors say of other lights is no more exact.
+bool is_clearly_better(const PictureErrors& arcs, const PictureErrors& em) {
+  return arcs.lamps < em.lamps && arcs.windows < em.windows &&
+         arcs.lamps * arcs.windows < 0.9 * em.lamps * em.windows;
+}
+
+// A table with the albedos of the views as weights, for arcs alone.
+LobeTable albedos(const Brdf& brdf, const Recipe& recipe, const FitOptions& options,
+                  const LobeTable& grid, const Progress& progress) {
+  LobeTable table = grid;
+  const glm::ivec2 views = grid.views();
+  parallel_for(
+      static_cast<std::size_t>(views.x * views.y), recipe.threads, progress, [&](std::size_t view) {
+        const int t = static_cast<int>(view) % views.x;
+        const int p = static_cast<int>(view) / views.x;
+        const Slice slice = sample_slice(brdf, table.view(t, p), options.nodes_per_axis,
+                                         seed_rotation(recipe.seed));
+        Mixture lobes(static_cast<std::size_t>(table.lobes()), {0.0, {{0.0, 0.0, 1.0}, 1.0}});
+        lobes.front().weight = slice.albedo;
+        table.set_mixture_at_view(t, p, lobes);
+      });
+  return table;
+}
+
+// The likelihoods of lobes that no iteration made.
+void report_arcs(const Brdf& brdf, const Recipe& recipe, const FitOptions& options,
+                 const ArcTable& arcs, const Progress& progress, FitReport& report) {
+  const int elevations = arcs.table.views().x;
+  parallel_for(report.iterations.size(), recipe.threads, progress, [&](std::size_t view) {
+    const int t = static_cast<int>(view) % elevations;
+    const int p = static_cast<int>(view) / elevations;
+    const Slice slice = sample_slice(brdf, arcs.table.view(t, p), options.nodes_per_axis,
+                                     seed_rotation(recipe.seed));
+    EmOptions none;
+    none.max_iterations = 0;
+    const EmResult result = run_em(slice, arcs.table.mixture_at_view(t, p), none);
+    report.iterations[view] = 0;
+    report.log_likelihood[view] =
+        result.log_likelihood.empty() ? 0.0 : result.log_likelihood.back();
+  });
+  report.first_view_curve = {report.log_likelihood.front()};
+  report.arc_reach = arcs.reach;
+}
+
 }  // namespace
+
+bool looks_at_arcs(const Recipe& recipe, std::string_view brdf, const glm::dvec2& alpha) {
+  if (recipe.placement == Placement::arc) return true;
+  return recipe.placement == Placement::automatic && recipe.method == FitMethod::continuation &&
+         arcs_may_win(brdf, alpha);
+}
 
 std::string_view to_string(FitMethod method) {
   return method == FitMethod::independent ? "independent" : "continuation";
@@ -97,6 +152,19 @@ void validate_counts(const Recipe& recipe) {
     sentence << "lobes is " << recipe.lobes << ", but must be between 1 and " << kMaxLobes << ".";
     refuse(sentence);
   }
+  if (recipe.reach != 0.0 && !(recipe.reach >= kLeastReach && recipe.reach <= kGreatestReach)) {
+    sentence << "reach is " << recipe.reach << ", but must be between " << kLeastReach << " and "
+             << kGreatestReach << ", or 0 for the best one.";
+    refuse(sentence);
+  }
+  if (recipe.reach != 0.0 && recipe.placement == Placement::em) {
+    sentence << "reach is " << recipe.reach << ", but placement \"em\" has none.";
+    refuse(sentence);
+  }
+  if (recipe.placement == Placement::arc && recipe.method == FitMethod::independent) {
+    sentence << "placement is \"arc\", which goes with method \"continuation\" only.";
+    refuse(sentence);
+  }
   const glm::ivec2 views = resolve_views(recipe, true);
   if (views.x < 2 || views.x > kMaxViews || views.y < 1 || views.y > kMaxViews) {
     sentence << "views is (" << recipe.views.x << ", " << recipe.views.y << "), but needs 2 to "
@@ -128,6 +196,12 @@ void validate(const Recipe& recipe) {
   validate_counts(recipe);
   validate_brdf(recipe.brdf, recipe.alpha);
   if (is_measured_file(recipe.brdf)) return;
+  if (recipe.placement == Placement::arc && !has_arc(recipe.brdf, recipe.alpha)) {
+    std::ostringstream sentence;
+    sentence << "placement is \"arc\", but " << recipe.brdf << " of the widths (" << recipe.alpha.x
+             << ", " << recipe.alpha.y << ") has no long highlight.";
+    refuse(sentence);
+  }
   validate_material(recipe, recipe.alpha, recipe.alpha.x == recipe.alpha.y);
 }
 
@@ -135,6 +209,11 @@ LobeTable fit_table(const Brdf& brdf, const Recipe& recipe, Progress& progress, 
                     const FitOptions& options) {
   validate_counts(recipe);
   validate_material(recipe, brdf.alpha(), brdf.is_isotropic());
+  if (recipe.placement == Placement::arc && !has_arc(brdf)) {
+    std::ostringstream sentence;
+    sentence << "placement is \"arc\", but " << brdf.name() << " has no long highlight.";
+    refuse(sentence);
+  }
   const auto start = std::chrono::steady_clock::now();
   FitReport own;
   FitReport& used = report ? *report : own;
@@ -146,11 +225,23 @@ LobeTable fit_table(const Brdf& brdf, const Recipe& recipe, Progress& progress, 
   used.iterations.assign(views, 0);
   used.log_likelihood.assign(views, 0.0);
   progress.set(0.0);
-  if (recipe.method == FitMethod::independent) {
-    fit_independently(brdf, recipe, options, table, progress, used);
+  const bool arcs = looks_at_arcs(recipe, brdf.name(), brdf.alpha());
+  Progress em(progress, arcs ? 1.0 - kArcShare : 1.0);
+  if (recipe.placement == Placement::arc) {
+    table = albedos(brdf, recipe, options, table, progress);
+  } else if (recipe.method == FitMethod::independent) {
+    fit_independently(brdf, recipe, options, table, em, used);
   } else {
     const Continuation how{brdf, recipe.seed, recipe.threads, recipe.refine, options};
-    continue_over_views(how, {}, neighbours_lobes(table), table, progress, &used);
+    continue_over_views(how, {}, neighbours_lobes(table), table, em, &used);
+  }
+  if (arcs) {
+    const PictureError error(brdf, table.views(), recipe.threads, progress);
+    ArcTable found = fit_arcs(brdf, table, recipe.reach, error, recipe.threads, progress);
+    if (recipe.placement == Placement::arc || is_clearly_better(found.errors, error(table))) {
+      report_arcs(brdf, recipe, options, found, progress, used);
+      table = std::move(found.table);
+    }
   }
   refuse_unstorable(table, brdf);
   progress.set(1.0);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "fit/placement.h"
 #include "fit/view_fitter.h"
 #include "table/lobe_table.h"
 
@@ -31,6 +32,11 @@ struct Recipe {
   // Whether the lobes are fitted to what is drawn in their place after they have been fitted as
   // Gaussians (fit/refinement.h).
   bool refine = false;
+  // Where the lobes are, and how far they reach along the highlight where they are strung along it,
+  // in slopes over alpha; 0: as the error of a picture says (fit/placement.h). Independent fits and
+  // measurements are EM's.
+  Placement placement = Placement::automatic;
+  double reach = 0.0;
   std::uint64_t seed = 0;
   int threads = 0;  // zero or negative: every core
 };
@@ -46,6 +52,9 @@ void validate(const Recipe& recipe);
 // model is isotropic if both widths are equal.
 glm::ivec2 resolve_views(const Recipe& recipe, bool isotropic);
 glm::ivec2 resolve_views(const Recipe& recipe);
+
+// Whether a fit of the recipe also looks at lobes along the highlight.
+bool looks_at_arcs(const Recipe& recipe, std::string_view brdf, const glm::dvec2& alpha);
 
 // Fits the recipe's table. The lobes of a coloured BRDF are fitted to the mean of its channels and
 // get weights for each of them (fit/channel_weights.h). The bytes are the same for any number of

@@ -19,6 +19,8 @@ struct FitReport {
   // Final, mean over the slice's mass in nats: of the Gaussians or, refined, of what is drawn.
   std::vector<double> log_likelihood;
   std::vector<double> first_view_curve;  // log-likelihood of view (0, 0), iteration by iteration
+  // Of lobes along the highlight (fit/placement.h), which take no iterations: how far they reach.
+  double arc_reach = 0.0;
 };
 
 // What a recipe does not say, with the values that every baked table uses; tests and benchmarks

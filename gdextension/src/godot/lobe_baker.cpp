@@ -45,8 +45,8 @@ LobeTarget read_target(const Request& request) {
 
 TableRequest read_table_request(const Dictionary& values) {
   const Request request(values, "a recipe",
-                        {"brdf", "alpha", "lobes", "views", "method", "refine", "seed", "threads",
-                         "target", "max_lobes", "environments"});
+                        {"brdf", "alpha", "lobes", "views", "method", "refine", "placement",
+                         "reach", "seed", "threads", "target", "max_lobes", "environments"});
   TableRequest table;
   Recipe& recipe = table.recipe;
   recipe.brdf = request.text("brdf", recipe.brdf);
@@ -58,6 +58,8 @@ TableRequest read_table_request(const Dictionary& values) {
   recipe.views = request.counts("views", recipe.views);
   recipe.method = fit_method_from_string(request.text("method", to_string(recipe.method)));
   recipe.refine = request.truth("refine", recipe.refine);
+  recipe.placement = placement_from_string(request.text("placement", to_string(recipe.placement)));
+  recipe.reach = request.real("reach", recipe.reach);
   recipe.seed = request.unsigned_integer("seed", recipe.seed);
   recipe.threads = request.integer("threads", recipe.threads);
   if (request.says("lobes", "auto")) {
@@ -83,6 +85,8 @@ Dictionary to_dictionary(const BakedTable& baked, const TableRequest& request) {
   result["views"] = to_godot(table.views());
   result["method"] = to_godot(to_string(baked.recipe.method));
   result["refine"] = baked.recipe.refine;
+  result["placement"] = to_godot(to_string(baked.recipe.placement));
+  if (baked.recipe.placement == Placement::arc) result["reach"] = baked.recipe.reach;
   result["seed"] = baked.recipe.seed;
   result["width"] = table.width();
   result["height"] = table.height();

@@ -1,0 +1,91 @@
+#include "fit/placement.h"
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "base/one_line.h"
+#include "base/parallel.h"
+#include "fit/arc.h"
+#include "fit/mirror.h"
+#include "fit/picture_error.h"
+
+namespace lobelight {
+
+namespace {
+
+// Of the two widths.
+constexpr double kLeastArcRatio = 5.0;
+
+bool is_long(const glm::dvec2& alpha) {
+  return std::max(alpha.x, alpha.y) >= kLeastArcRatio * std::min(alpha.x, alpha.y);
+}
+
+LobeTable arc_table(const Brdf& brdf, const LobeTable& model, const ArcShape& shape, int threads,
+                    const Progress& progress) {
+  LobeTable table(brdf.alpha(), model.lobes(), model.views());
+  const glm::ivec2 views = model.views();
+  parallel_for(static_cast<std::size_t>(views.x * views.y), threads, progress,
+               [&](std::size_t view) {
+                 const int t = static_cast<int>(view) % views.x;
+                 const int p = static_cast<int>(view) / views.x;
+                 Mixture lobes = arc_lobes(brdf, table.view(t, p), model.lobes(), shape,
+                                           total_weight(model.mixture_at_view(t, p)));
+                 // To the last bit, as the table is mirrored.
+                 std::vector<Mirror> mirrors;
+                 if (p == 0 || t == 0) mirrors.push_back(match_images(lobes, 1));
+                 if (p == views.y - 1 || t == 0) mirrors.push_back(match_images(lobes, 0));
+                 symmetrise(lobes, mirrors);
+                 table.set_mixture_at_view(t, p, lobes);
+               });
+  return table;
+}
+
+}  // namespace
+
+std::string_view to_string(Placement placement) {
+  switch (placement) {
+    case Placement::em:
+      return "em";
+    case Placement::arc:
+      return "arc";
+    default:
+      return "auto";
+  }
+}
+
+Placement placement_from_string(std::string_view name) {
+  for (const Placement placement : {Placement::automatic, Placement::em, Placement::arc}) {
+    if (name == to_string(placement)) return placement;
+  }
+  std::ostringstream sentence;
+  sentence << "placement is \"" << one_line(name)
+           << "\", which is not known; known are \"auto\", \"em\", \"arc\".";
+  throw std::invalid_argument(sentence.str());
+}
+
+bool arcs_may_win(std::string_view brdf, const glm::dvec2& alpha) {
+  return has_arc(brdf, alpha) && is_long(alpha);
+}
+
+bool arcs_may_win(const Brdf& brdf) { return arcs_may_win(brdf.name(), brdf.alpha()); }
+
+ArcTable fit_arcs(const Brdf& brdf, const LobeTable& model, double reach, const PictureError& error,
+                  int threads, const Progress& progress) {
+  const bool ggx = brdf.name() == "ggx";
+  const std::vector<double> reaches = reach > 0.0 ? std::vector<double>{reach}
+                                      : ggx       ? std::vector<double>{4.5, 6.0, 8.5, 12.0}
+                                                  : std::vector<double>{1.6, 1.8, 2.0, 2.2, 2.5};
+  std::optional<ArcTable> best;
+  for (const double candidate : reaches) {
+    LobeTable table = arc_table(brdf, model, arc_shape(brdf, candidate), threads, progress);
+    const PictureErrors own = error(table);
+    if (best && !(own.lamps * own.windows < best->errors.lamps * best->errors.windows)) continue;
+    best = ArcTable{std::move(table), candidate, own};
+  }
+  return std::move(*best);
+}
+
+}  // namespace lobelight
