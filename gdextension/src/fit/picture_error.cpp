@@ -75,7 +75,7 @@ std::vector<Lamp> made_up_light(std::size_t light) {
     add(10, 0.06, 4.0, 2.0, 20.0);
     add(48, 0.01, 6.0, 3.0, 3000.0);
   } else {
-    add(48, 0.02, 8.0, 1.5, 30.0);
+    add(48, 0.012, 8.0, 1.5, 200.0);
   }
   return lamps;
 }

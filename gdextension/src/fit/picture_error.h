@@ -22,13 +22,12 @@ struct PictureErrors {
 // little.
 //
 // The lights are made up and no real place's: a night of small lamps whose brightness spreads over
-// four powers of ten, and a room of windows that are broad and hardly brighter than the walls. Each
-// is a sum of spherical Gaussians, so
-// that what a lobe sees of it is one as well, in the two levels that are drawn in its place
-// (fit/pyramid_kernel.h). What the material really reflects is the sum over other nodes than
-// mixtures are fitted to, at views between those of the table, each turned against the light in
-// several ways. Both are shown as ./dev compare shows them: exposed so that the median is 0.18,
-// clamped, to the power of 1/2.2.
+// four powers of ten, and a room of windows and lamps that spread over two. Each is a sum of
+// spherical Gaussians, so that what a lobe sees of it is one as well, in the two levels that are
+// drawn in its place (fit/pyramid_kernel.h). What the material really reflects is the sum over
+// other nodes than mixtures are fitted to, at views between those of the table, each turned against
+// the lights in several ways. Both are shown as ./dev compare shows them: exposed so that the
+// median is 0.18, clamped, to the power of 1/2.2.
 class PictureError {
  public:
   // For tables with `views`. Throws Cancelled. `threads` as for parallel_for(); the result does not

@@ -77,7 +77,7 @@ ArcTable fit_arcs(const Brdf& brdf, const LobeTable& model, double reach, const 
   const bool ggx = brdf.name() == "ggx";
   const std::vector<double> reaches = reach > 0.0 ? std::vector<double>{reach}
                                       : ggx       ? std::vector<double>{4.5, 6.0, 8.5, 12.0}
-                                                  : std::vector<double>{1.6, 1.8, 2.0, 2.2, 2.5};
+                                                  : std::vector<double>{1.6, 1.8, 2.0, 2.3, 2.6};
   std::optional<ArcTable> best;
   for (const double candidate : reaches) {
     LobeTable table = arc_table(brdf, model, arc_shape(brdf, candidate), threads, progress);
