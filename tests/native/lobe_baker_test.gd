@@ -33,7 +33,11 @@ const REFUSED := [
 	["method", 1, "method is 1 (int)"],
 	["refine", 1, "refine is 1 (int), but must be true or false."],
 	["refine", "yes", 'refine is "yes" (String)'],
-	["placement", "line", 'placement is "line", which is not known; known are "auto", "em", "arc".'],
+	[
+		"placement",
+		"line",
+		'placement is "line", which is not known; known are "auto", "em", "arc".'
+	],
 	["placement", 1, "placement is 1 (int)"],
 	["reach", 0.1, "reach is 0.1, but must be between 0.5 and 32, or 0 for the best one."],
 	["reach", NAN, "reach is nan"],
