@@ -36,6 +36,8 @@ const RIVALS: PackedStringArray = [
 
 ## Drawn in rooms, besides `gmm<lobes>`, `gmm<lobes>r`, both also with `_flat`, and the reference.
 const ROOM_RIVALS: PackedStringArray = ["fis8", "fis16", "fis40", "fis40g", "stock"]
+# Of `line<lobes>`.
+const _LINES: PackedInt32Array = [4, 8, 12, 16, 20, 24, 28, 32]
 const _FLAT := "_flat"
 
 
@@ -56,8 +58,8 @@ static func error(method: String, in_room := false) -> String:
 		return ""
 	return (
 		(
-			"method %s is unknown; the methods are gmm<lobes>, gmm<lobes>r (gmm8, gmm8r …), line8, line16,"
-			+ " line24, line32, auto, %s and reference."
+			"method %s is unknown; the methods are gmm<lobes>, gmm<lobes>r (gmm8, gmm8r …), line4,"
+			+ " line8 … line32, auto, %s and reference."
 		)
 		% [method, ", ".join(RIVALS)]
 	)
@@ -101,7 +103,7 @@ static func _gmm_lobes(method: String) -> int:
 # 0 where it is no line, or none of a number that is drawn.
 static func _line_lobes(method: String) -> int:
 	var lobes := _number_after("line", method)
-	return lobes if lobes in OwnLine.LineChoice.PLACES else 0
+	return lobes if lobes in _LINES else 0
 
 
 # 0 where the name is not `family` and a whole number.

@@ -6,7 +6,6 @@ const Kit := preload("support/render_kit.gd")
 const Bench := preload("support/comparator_bench.gd")
 const ComparatorKit := preload("support/comparator_kit.gd")
 const LineChoice := preload("res://addons/lobelight/runtime/material/line_choice.gd")
-const LineLobes := preload("res://addons/lobelight/runtime/line/line_lobes.gd")
 
 const MATERIALS := [["ward", 0.02, 0.2], ["ward_bounded", 0.2, 0.02], ["ggx", 0.02, 0.2]]
 # Of the albedo, where the view is less than 63 degrees off the normal.
@@ -61,32 +60,6 @@ func test_long_highlights(brdf: String, x: float, y: float, _test_parameters := 
 	)
 
 
-func test_lobes_share_out_the_slopes() -> void:
-	for brdf: String in LineChoice.MODELS:
-		for count: float in [16.0, 17.3, 24.0]:
-			var parameters := LineLobes.get_parameters(brdf, count, 24)
-			var lobes: PackedVector4Array = parameters[&"lobelight_line"]
-			var weights := 0.0
-			var mean := 0.0
-			for lobe in lobes:
-				weights += lobe.y
-				mean += lobe.y * lobe.x
-			assert_float(weights).is_equal_approx(1.0, 1e-5)
-			assert_float(mean).is_equal_approx(0.0, 1e-5)
-
-
-func test_more_lobes_come_in_gradually() -> void:
-	# Where the number rises, the lobes are those of fewer, and others without weight.
-	for brdf: String in LineChoice.MODELS:
-		var few: PackedVector4Array = LineLobes.get_parameters(brdf, 16.0, 16)[&"lobelight_line"]
-		var many: PackedVector4Array = LineLobes.get_parameters(brdf, 16.0, 24)[&"lobelight_line"]
-		for place in 24:
-			if place < 4 or place >= 20:
-				assert_float(many[place].y).is_equal_approx(0.0, 1e-6)
-			else:
-				assert_vector(many[place]).is_equal_approx(few[place - 4], 1e-5 * Vector4.ONE)
-
-
 func test_no_step_is_seen() -> void:
 	var environment := LobeEnvironment3D.new()
 	_view.add_child(environment)
@@ -126,7 +99,7 @@ func _find_changes() -> PackedFloat64Array:
 		var anisotropy := 0.5 + 0.6 * i / 1100.0
 		var choice := LineChoice.new()
 		choice.choose("ggx", anisotropy, 32, false)
-		var kind := 2 * choice.places + int(choice.fades)
+		var kind := 2 * choice.count + int(choice.fades)
 		if last >= 0 and kind != last:
 			changes.append(anisotropy)
 		last = kind

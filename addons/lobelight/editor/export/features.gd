@@ -187,7 +187,7 @@ func look_at_material(file: String, material: LobeMaterial3D) -> void:
 		add(OnDemand.ANTIALIASING, file)
 	if material.occludes_reflections():
 		add(OCCLUSION, file)
-	if TableChoice.find_line(material, material.get_shown_anisotropy()).places > 0:
+	if TableChoice.find_line(material, material.get_shown_anisotropy()).count > 0:
 		add(OnDemand.LINES, file)
 	if material.detail_enabled:
 		add(DETAIL, file)

@@ -152,7 +152,7 @@ func _edit(value: Variant, seen: Dictionary[int, bool]) -> bool:
 
 
 static func _has_line(material: LobeMaterial3D) -> bool:
-	return TableChoice.find_line(material, material.get_shown_anisotropy()).places > 0
+	return TableChoice.find_line(material, material.get_shown_anisotropy()).count > 0
 
 
 # Whether nothing changes the widths while the game runs.

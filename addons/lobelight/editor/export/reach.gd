@@ -310,7 +310,7 @@ func _has_line_alone(material: LobeMaterial3D, anisotropy: float) -> bool:
 	if not material.anisotropy_enabled:
 		return false
 	var line := TableChoice.find_line(material, anisotropy)
-	return line.places > 0 and not line.fades
+	return line.count > 0 and not line.fades
 
 
 # A material's own value and those that scripts may give it.

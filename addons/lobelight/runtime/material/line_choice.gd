@@ -10,9 +10,11 @@ const Widths := preload("../table/widths.gd")
 const MODELS: Dictionary[String, String] = {
 	"ggx": "GGX", "ward": "WARD", "ward_bounded": "WARD_BOUNDED"
 }
-## How many lobes a shader may have.
-const PLACES: PackedInt32Array = [8, 16, 24, 32]
-const _PART := "res://addons/lobelight/runtime/line/line_lobes.gd"
+## How many lobes a line has, that there are few shaders.
+const COUNTS: PackedInt32Array = [12, 16, 24, 32]
+const _PART := "res://addons/lobelight/runtime/line/line.gdshaderinc"
+# Who wants no more than this wants no line.
+const _FEWEST := 8
 # Widths of this ratio are drawn by the table, and by the line from the other on; between them, by
 # both.
 const _ROUND := 3.0
@@ -21,8 +23,10 @@ const _LONG := 3.6
 const _LEAST := 0.001
 const _LARGEST := 1.0
 
-## How many lobes the shader has; 0 if the table draws all.
-var places := 0
+## How many lobes the line has; 0 if the table draws all.
+var count := 0
+## Of these, how many are in use, which need not be a whole number.
+var used := 0.0
 ## Of the line in the light, the table's being the rest.
 var share := 0.0
 ## Whether there is a table besides.
@@ -34,66 +38,70 @@ var is_possible := false
 
 var _most := 0
 var _can_be_rounder := false
-var _count := 0.0
-var _parameters: Dictionary[StringName, Variant] = {}
 
 
 ## Looks anew. [param most] is the largest number of lobes to be drawn, [param can_be_rounder] says
 ## that pixels may have less anisotropy.
 func choose(of_brdf: String, anisotropy: float, most: int, can_be_rounder: bool) -> void:
 	clear()
-	is_possible = most > PLACES[0] and MODELS.has(of_brdf)
+	is_possible = most > _FEWEST and MODELS.has(of_brdf)
 	_most = most
 	_can_be_rounder = can_be_rounder
 	share = get_share(anisotropy) if is_possible else 0.0
 	if share > 0.0:
-		is_possible = _find_part() != null
+		is_possible = _is_there()
 	if share > 0.0 and is_possible:
-		_take(of_brdf, minf(_find_count(anisotropy), most))
+		brdf = of_brdf
+		used = _find_used(anisotropy, most)
+		count = _find_count(used)
 		fades = share < 1.0 or can_be_rounder
 
 
 ## A line of so many lobes for whatever widths.
-func choose_count(of_brdf: String, count: int) -> void:
+func choose_count(of_brdf: String, lobes: int) -> void:
 	share = 1.0
 	fades = false
-	_take(of_brdf, count)
+	brdf = of_brdf
+	count = lobes
+	used = lobes
 
 
 func clear() -> void:
-	places = 0
+	count = 0
 	is_possible = false
 
 
 ## Takes other widths if the shader can stay, and says so.
 func follow(anisotropy: float) -> bool:
 	var next := get_share(anisotropy)
-	if not is_possible or places == 0 and next == 0.0:
+	if not is_possible or count == 0 and next == 0.0:
 		return true
-	var count := minf(_find_count(anisotropy), _most)
 	var will_fade := next < 1.0 or _can_be_rounder
-	if next == 0.0 or will_fade != fades or _find_places(count) != places:
+	var next_used := _find_used(anisotropy, _most)
+	if next == 0.0 or will_fade != fades or _find_count(next_used) != count:
 		return false
 	share = next
-	_take(brdf, count)
+	used = next_used
 	return true
 
 
 ## What the shader takes, for widths that are the same everywhere.
 func get_parameters(roughness: float, anisotropy: float) -> Dictionary[StringName, Variant]:
-	var given := _parameters.duplicate()
-	given[&"lobelight_line_alpha"] = get_alpha(roughness, anisotropy)
-	given[&"lobelight_line_share"] = share
-	return given
+	return {
+		&"lobelight_line_alpha": get_alpha(roughness, anisotropy),
+		&"lobelight_line_count": used,
+		&"lobelight_line_share": share,
+	}
 
 
 ## The same for widths of each pixel.
 func get_parameters_of_pixels() -> Dictionary[StringName, Variant]:
-	var given := _parameters.duplicate()
-	given[&"lobelight_line_widths"] = Vector2(log(_LEAST), log(_LARGEST)) / log(2.0)
 	var slope := log(2.0) / log(_LONG / _ROUND)
-	given[&"lobelight_line_fade"] = Vector2(slope, -slope * log(_ROUND) / log(2.0))
-	return given
+	return {
+		&"lobelight_line_count": used,
+		&"lobelight_line_widths": Vector2(log(_LEAST), log(_LARGEST)) / log(2.0),
+		&"lobelight_line_fade": Vector2(slope, -slope * log(_ROUND) / log(2.0)),
+	}
 
 
 ## What of widths a line draws, from 0 to 1.
@@ -112,29 +120,20 @@ static func get_alpha(roughness: float, anisotropy: float) -> Vector2:
 	return Widths.from_roughness(roughness, anisotropy).clampf(_LEAST, _LARGEST)
 
 
-# How many lobes widths need, which need not be a whole number.
-static func _find_count(anisotropy: float) -> float:
-	return clampf(2.4 * get_ratio(anisotropy), PLACES[1], PLACES[-1])
+# How many lobes widths need: more would hardly be seen.
+static func _find_used(anisotropy: float, most: int) -> float:
+	return minf(minf(2.0 * get_ratio(anisotropy) + 4.0, COUNTS[-1]), most)
 
 
-static func _find_places(count: float) -> int:
-	for enough in PLACES:
-		if count <= enough:
+static func _find_count(lobes: float) -> int:
+	for enough in COUNTS:
+		if lobes <= enough:
 			return enough
-	return PLACES[-1]
+	return COUNTS[-1]
 
 
-func _take(of_brdf: String, count: float) -> void:
-	if of_brdf != brdf or count != _count or places == 0:
-		brdf = of_brdf
-		_count = count
-		places = _find_places(count)
-		var part := _find_part()
-		_parameters.assign(part.call(&"get_parameters", brdf, count, places))
-
-
-# Null where an export has left it out.
-static func _find_part() -> GDScript:
+# Exports leave the shader's part out where no file asks for it; an empty one is in its place.
+static func _is_there() -> bool:
 	if OnDemand.find_loss(_PART, OnDemand.LINES):
-		return null
-	return OnDemand.fetch(_PART, OnDemand.LINES) as GDScript
+		return false
+	return "LOBELIGHT_LINE" in (load(_PART) as ShaderInclude).code

@@ -67,7 +67,7 @@ static func count_fetches(
 	if "SECOND_TEXELS" in defines or ("WIDTHS_PER_PIXEL" in defines and not choice.is_isotropic):
 		table *= 2
 	if "LINE_FADES" in defines:
-		environment += choice.line.places
+		environment += choice.line.count
 	if "DIELECTRIC" in defines and "ENGINE_DIFFUSE" not in defines:
 		environment += DIFFUSE_FETCHES
 	if choice.coat != null:
@@ -170,8 +170,8 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		defines.append("WIDE_BITANGENT")
 	if not choice.is_isotropic and choice.rotation != 0.0:
 		defines.append("TURNED")
-	if choice.line.places > 0:
-		defines.append("LINE %d" % choice.line.places)
+	if choice.line.count > 0:
+		defines.append("LINE %d" % choice.line.count)
 		defines.append("LINE_" + choice.line.MODELS[choice.line.brdf])
 		if choice.line.fades:
 			defines.append("LINE_FADES")

@@ -99,7 +99,7 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 		_stand_in = null
 		is_isotropic = false
 		brdf = line.brdf
-		lobe_count = line.places
+		lobe_count = line.count
 		is_per_pixel = surface.varies()
 	if table != null or widths_texture != null or is_isotropic or _has_line_alone():
 		_mixed = null
@@ -123,7 +123,7 @@ func choose_line(of_brdf: String, alpha: Vector2, count: int) -> void:
 	_mixed = null
 	is_from_set = false
 	is_isotropic = false
-	lobe_count = line.places
+	lobe_count = line.count
 	var godots := Widths.to_roughness(alpha)
 	roughness = godots.x
 	anisotropy = godots.y
@@ -153,7 +153,7 @@ func follow(new_roughness: float, shown_anisotropy: float, material: RID) -> boo
 			return false
 		anisotropy = turned
 		RenderingServer.material_set_param(material, &"lobelight_anisotropy", anisotropy)
-	if line.places > 0:
+	if line.count > 0:
 		var given := get_line_parameters()
 		for name in given:
 			RenderingServer.material_set_param(material, name, given[name])
@@ -216,7 +216,7 @@ func has_table() -> bool:
 
 ## What the shader takes for lobes that need no table; empty if there are none.
 func get_line_parameters() -> Dictionary[StringName, Variant]:
-	if line.places == 0:
+	if line.count == 0:
 		return {}
 	if is_per_pixel:
 		return line.get_parameters_of_pixels()
@@ -230,7 +230,7 @@ func has_second_texels() -> bool:
 
 ## A number that is another one where the shader's code is, as far as it goes by the lobes.
 func get_shape() -> int:
-	var shape := 64 * line.places + lobe_count
+	var shape := 64 * line.count + lobe_count
 	var facts: Array[bool] = [
 		coat != null,
 		sheen != null,
@@ -296,7 +296,7 @@ func _choose_line(of_brdf: String, surface: LobeBaseMaterial3D, can_vary: bool) 
 
 
 func _has_line_alone() -> bool:
-	return line.places > 0 and not line.fades
+	return line.count > 0 and not line.fades
 
 
 # Whether the GPU mixes. Exports leave the means out where they know of no widths that change.
