@@ -33,6 +33,7 @@ CHANGES = {
     "frame.gdshaderinc": ("square < 1e8", "square < 1e2", ["frame"]),
     "half_float.gdshaderinc": ("0xFFFu", "0xFFEu", ["half"]),
     "lamps.gdshaderinc": ("return lobelight_rim_amount;", "return lobelight_rim_amount.yx;", ["fades"]),
+    "line.gdshaderinc": ("REACH = 2.84", "REACH = 2.85", ["line_ggx_16"]),
     "lobe_table.gdshaderinc": ("0.1141528", "0.1151528", ["position_16x8_lobes_1"]),
     "material.gdshaderinc": ("max(1.0 - share, 0.0)", "max(0.99 - share, 0.0)", ["material_everything_levels"]),
     "material_inputs.gdshaderinc": ("texel * 2.0 - 1.0", "texel * 2.0 - 0.99", ["material_with_maps_directions"]),

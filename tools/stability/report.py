@@ -23,6 +23,7 @@ SHADER_TITLES = {
     "shader level": "Level of the pyramid",
     "shader decode": "Texel to lobe",
     "shader position": "Place in a table",
+    "shader line": "Lobes without a table",
     "shader frame": "Tangent frames",
     "shader view": "View in tangent space",
     "shader widths": "Widths of a set",

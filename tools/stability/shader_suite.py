@@ -11,6 +11,7 @@ import shader_antialiasing
 import shader_fades
 import shader_frames
 import shader_light
+import shader_line
 import shader_material
 import shader_occlusion
 import shader_passes
@@ -73,6 +74,7 @@ def make(quick, records):
         *shader_antialiasing.probes(),
         *shader_frames.probes(quick),
         *shader_widths.probes(quick),
+        *shader_line.probes(quick),
         *shader_planes.probes(quick),
         *shader_occlusion.probes(quick),
         *shader_tables.probes(quick, tables),
