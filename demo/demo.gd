@@ -214,9 +214,14 @@ func _load_tables() -> void:
 	var tables := DemoTables.set_of(lobe_count)
 	if tables == null:
 		missing_tables.append(DemoTables.path_of(lobe_count))
+	# Other numbers than the ready sets' are to be seen as they are.
+	var quality := LobeMaterial3D.Quality.LOBES_8
+	if lobe_count == 8:
+		quality = LobeMaterial3D.Quality.AUTOMATIC
 	for surface in _surfaces:
 		# Without them, the material takes the ready set.
 		surface.material.table_set = tables
+		surface.material.quality = quality
 	_find_missing_thesis()
 	changed.emit()
 

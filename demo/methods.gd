@@ -13,11 +13,16 @@ static func has_rooms(method: int) -> bool:
 	return method not in [Method.THESIS, Method.SAMPLES]
 
 
+## What a number of lobes draws; with the ready sets', materials take more for long widths.
+static func describe_lobes(lobes: int) -> String:
+	return "8 to 32 lobes" if lobes == 8 else "%d lobes" % lobes
+
+
 ## A method's name for people; [param lobes] are those of this project's.
 static func title_of(method: int, lobes: int) -> String:
 	match method:
 		Method.OURS:
-			return "%s, %d lobes" % [TITLES[method], lobes]
+			return "%s, %s" % [TITLES[method], describe_lobes(lobes)]
 		Method.THESIS:
 			return "%s, 8 lobes" % TITLES[method]
 		Method.SAMPLES:

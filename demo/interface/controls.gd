@@ -153,7 +153,7 @@ func _add_methods() -> void:
 		func(index: int) -> void: _demo.right_method = right.get_item_id(index) - 1
 	)
 	for count in DemoTables.LOBE_COUNTS:
-		lobes.add_item("%d lobes" % count, count)
+		lobes.add_item(Methods.describe_lobes(count), count)
 		if DemoTables.set_of(count) == null:
 			lobes.set_item_disabled(lobes.get_item_index(count), true)
 	lobes.item_selected.connect(

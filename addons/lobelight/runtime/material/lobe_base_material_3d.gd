@@ -19,13 +19,12 @@ enum SpecularAntialiasing {
 	ENABLED,
 }
 
-## How many lobes a material draws with its [member table_set].
+## How many lobes a material draws.
 enum Quality {
 	## As many as the widths need: those of the set where they are nearly round, eight with the ready
-	## sets; with GGX and Ward 16 to 32 lobes, which need no table, where one width is more than three
-	## times the other.
+	## sets; for long ones 12 to 32, up to 24 in the range of Godot's own materials.
 	AUTOMATIC = 0,
-	## The lobes of the set, whatever the widths.
+	## Those of the set, whatever the widths.
 	LOBES_8 = 8,
 	## Of long widths, 16 lobes at most.
 	LOBES_16 = 16,
@@ -83,7 +82,12 @@ const Widths := preload("../table/widths.gd")
 		table = value
 		_queue_update()
 
-## How many lobes a pixel may be drawn with, each of them a look-up in the environment.
+## How many lobes a pixel is drawn with, each of them a look-up in the environment. Where one width
+## is more than three times the other, few lobes show each lamp as often as there are lobes: with GGX
+## and Ward such widths have lobes of their own, which are computed instead of looked up in a table,
+## as many as are needed. Widths that are nearly round, all other BRDFs and materials with a [member
+## table] are drawn with the lobes that their tables have. Between ratios of 3 and 3.6 both are
+## drawn, so that nothing is seen of the change.
 @export_custom(PROPERTY_HINT_ENUM, _QUALITIES) var quality := Quality.AUTOMATIC:
 	set(value):
 		quality = value

@@ -137,7 +137,8 @@ var _choice := TableChoice.new()
 ## with the roughness r and the anisotropy a. These are the engine's own, so that a material looks
 ## the same in its lights. Godot's anisotropy ends at a = 1, 10:1; here it goes on to 1.1, 100:1.
 ## With a < 0, alpha_y is the larger one. A set's tables end where its widths do, the ready ones at
-## 0.005 and 1: what is beyond is taken for the last.
+## 0.005 and 1: what is beyond is taken for the last. Lobes without a table, see [member
+## LobeBaseMaterial3D.quality], go on to 0.001.
 static func widths_of(roughness_of_surface: float, anisotropy_of_surface: float) -> Vector2:
 	return Widths.from_roughness(roughness_of_surface, anisotropy_of_surface)
 
