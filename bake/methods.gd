@@ -37,7 +37,7 @@ const RIVALS: PackedStringArray = [
 ## Drawn in rooms, besides `gmm<lobes>`, `gmm<lobes>r`, both also with `_flat`, and the reference.
 const ROOM_RIVALS: PackedStringArray = ["fis8", "fis16", "fis40", "fis40g", "stock"]
 # Of `line<lobes>`.
-const _LINES: PackedInt32Array = [4, 8, 12, 16, 20, 24, 28, 32]
+const _LINES: PackedInt32Array = [4, 8, 12, 16, 20, 24, 28, 32, 36, 40]
 const _FLAT := "_flat"
 
 
@@ -59,7 +59,7 @@ static func error(method: String, in_room := false) -> String:
 	return (
 		(
 			"method %s is unknown; the methods are gmm<lobes>, gmm<lobes>r (gmm8, gmm8r …), line4,"
-			+ " line8 … line32, auto, %s and reference."
+			+ " line8 … line40, auto, %s and reference."
 		)
 		% [method, ", ".join(RIVALS)]
 	)

@@ -15,7 +15,7 @@ static func has_rooms(method: int) -> bool:
 
 ## What a number of lobes draws; with the ready sets', materials take more for long widths.
 static func describe_lobes(lobes: int) -> String:
-	return "8 to 32 lobes" if lobes == 8 else "%d lobes" % lobes
+	return "8 to 40 lobes" if lobes == 8 else "%d lobes" % lobes
 
 
 ## A method's name for people; [param lobes] are those of this project's.

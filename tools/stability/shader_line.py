@@ -53,7 +53,7 @@ def lobe(brdf, used, o, alpha, number):
     spread = 1 + t * t if is_ggx else 1
     # Its cell's part between the ends, when they are equally far from the middle.
     inside = min(max(0.5 * (used - COUNT) + min(number, COUNT - 1 - number) + 1, 0), 1)
-    share = inside * step / (spread * math.tanh(reach)) if is_ggx else inside * step * math.exp(-t * t) / math.sqrt(math.pi)
+    share = inside * step / spread if is_ggx else inside * step * math.exp(-t * t) / math.sqrt(math.pi)
     if not is_ggx:
         share /= 1 - 0.45 * math.exp(-(reach**2)) / reach
     t *= scale

@@ -85,7 +85,7 @@ const _WORDS: Dictionary[String, String] = {
 	OnDemand.ENGINE_LIGHT:
 	"diffuse_light|sdfgi_enabled|ssao_enabled|ssil_enabled|VoxelGI|LightmapGI|ReflectionProbe",
 	OnDemand.FILTERS: "filter",
-	OnDemand.LINES: "anisotropy(_enabled)?|Quality\\.(AUTOMATIC|LOBES_\\d+)",
+	OnDemand.LINES: "roughness|anisotropy(_enabled)?|Quality\\.(AUTOMATIC|LOBES_\\d+)",
 	OnDemand.MIXING: "roughness|anisotropy",
 	OnDemand.SKIES: "source|panorama|LobeEnvironment3D|LobeProbe3D",
 	OnDemand.LIVE: "source|panorama|LobeEnvironment3D",
@@ -187,7 +187,8 @@ func look_at_material(file: String, material: LobeMaterial3D) -> void:
 		add(OnDemand.ANTIALIASING, file)
 	if material.occludes_reflections():
 		add(OCCLUSION, file)
-	if TableChoice.find_line(material, material.get_shown_anisotropy()).count > 0:
+	var brushing := material.get_shown_anisotropy()
+	if TableChoice.find_line(material, material.roughness, brushing).count > 0:
 		add(OnDemand.LINES, file)
 	if material.detail_enabled:
 		add(DETAIL, file)

@@ -152,7 +152,8 @@ func _edit(value: Variant, seen: Dictionary[int, bool]) -> bool:
 
 
 static func _has_line(material: LobeMaterial3D) -> bool:
-	return TableChoice.find_line(material, material.get_shown_anisotropy()).count > 0
+	var brushing := material.get_shown_anisotropy()
+	return TableChoice.find_line(material, material.roughness, brushing).count > 0
 
 
 # Whether nothing changes the widths while the game runs.

@@ -284,13 +284,13 @@ func _include(file: String, material: LobeMaterial3D) -> void:
 	if material.table_set != null:
 		path = material.table_set.resource_path
 	var anisotropies := _all_of("anisotropy", material.anisotropy)
-	var tabled: Array[float] = []
-	for anisotropy in anisotropies:
-		if not _has_line_alone(material, anisotropy):
-			tabled.append(anisotropy)
-	if tabled.is_empty():
+	var surfaces: Array[Vector2] = []
+	for roughness in _all_of("roughness", material.roughness):
+		for anisotropy in anisotropies:
+			if not _has_line_alone(material, roughness, anisotropy):
+				surfaces.append(Widths.from_roughness(roughness, anisotropy))
+	if surfaces.is_empty():
 		return
-	anisotropies = tabled
 	var reach := _get_set(path)
 	reach.add_user(file)
 	if material.varies():
@@ -298,18 +298,17 @@ func _include(file: String, material: LobeMaterial3D) -> void:
 			reach.isotropic_because = "%s has a texture of widths" % file
 		else:
 			reach.whole_because = "%s has a texture of widths" % file
-	for roughness in _all_of("roughness", material.roughness):
-		for anisotropy in anisotropies:
-			reach.add_surface(Widths.from_roughness(roughness, anisotropy))
+	for surface in surfaces:
+		reach.add_surface(surface)
 
 
 # Whether widths need no table. Where a script does with them what is not known, nothing is.
-func _has_line_alone(material: LobeMaterial3D, anisotropy: float) -> bool:
+func _has_line_alone(material: LobeMaterial3D, roughness: float, anisotropy: float) -> bool:
 	if not (_unknown.is_empty() or _declared) or _switches_anisotropy:
 		return false
 	if not material.anisotropy_enabled:
 		return false
-	var line := TableChoice.find_line(material, anisotropy)
+	var line := TableChoice.find_line(material, roughness, anisotropy)
 	return line.count > 0 and not line.fades
 
 

@@ -11,14 +11,16 @@ const MODELS: Dictionary[String, String] = {
 	"ggx": "GGX", "ward": "WARD", "ward_bounded": "WARD_BOUNDED"
 }
 ## How many lobes a line has, that there are few shaders.
-const COUNTS: PackedInt32Array = [12, 16, 24, 32]
+const COUNTS: PackedInt32Array = [12, 16, 24, 32, 40]
 const _PART := "res://addons/lobelight/runtime/line/line.gdshaderinc"
 # Who wants no more than this wants no line.
 const _FEWEST := 8
 # Widths of this ratio are drawn by the table, and by the line from the other on; between them, by
-# both.
+# both. So are widths by the narrower one: of wide ones eight lobes of a table are more exact.
 const _ROUND := 3.0
 const _LONG := 3.6
+const _NARROW := 0.06
+const _WIDE := 0.1
 # The narrowest and the widest width of a line.
 const _LEAST := 0.001
 const _LARGEST := 1.0
@@ -37,21 +39,31 @@ var brdf := ""
 var is_possible := false
 
 var _most := 0
+var _can_be_narrower := false
 var _can_be_rounder := false
 
 
-## Looks anew. [param most] is the largest number of lobes to be drawn, [param can_be_rounder] says
-## that pixels may have less anisotropy.
-func choose(of_brdf: String, anisotropy: float, most: int, can_be_rounder: bool) -> void:
+## Looks anew. [param most] is the largest number of lobes to be drawn; pixels may have less
+## roughness or anisotropy.
+func choose(
+	of_brdf: String,
+	roughness: float,
+	anisotropy: float,
+	most: int,
+	can_be_narrower := false,
+	can_be_rounder := false
+) -> void:
 	clear()
 	is_possible = most > _FEWEST and MODELS.has(of_brdf)
 	_most = most
+	_can_be_narrower = can_be_narrower
 	_can_be_rounder = can_be_rounder
-	share = get_share(anisotropy) if is_possible else 0.0
-	if share > 0.0:
-		is_possible = _is_there()
-	if share > 0.0 and is_possible:
+	if not is_possible or not _may_show(roughness, anisotropy):
+		return
+	is_possible = _is_there()
+	if is_possible:
 		brdf = of_brdf
+		share = get_share(roughness, anisotropy)
 		used = _find_used(anisotropy, most)
 		count = _find_count(used)
 		fades = share < 1.0 or can_be_rounder
@@ -72,13 +84,15 @@ func clear() -> void:
 
 
 ## Takes other widths if the shader can stay, and says so.
-func follow(anisotropy: float) -> bool:
-	var next := get_share(anisotropy)
-	if not is_possible or count == 0 and next == 0.0:
+func follow(roughness: float, anisotropy: float) -> bool:
+	if not is_possible:
 		return true
-	var will_fade := next < 1.0 or _can_be_rounder
+	if not _may_show(roughness, anisotropy):
+		return count == 0
+	var next := get_share(roughness, anisotropy)
 	var next_used := _find_used(anisotropy, _most)
-	if next == 0.0 or will_fade != fades or _find_count(next_used) != count:
+	var will_fade := next < 1.0 or _can_be_rounder
+	if will_fade != fades or _find_count(next_used) != count:
 		return false
 	share = next
 	used = next_used
@@ -96,17 +110,35 @@ func get_parameters(roughness: float, anisotropy: float) -> Dictionary[StringNam
 
 ## The same for widths of each pixel.
 func get_parameters_of_pixels() -> Dictionary[StringName, Variant]:
-	var slope := log(2.0) / log(_LONG / _ROUND)
+	# Of logarithms to the base 2.
+	var by_ratio := log(2.0) / log(_LONG / _ROUND)
+	var by_width := log(2.0) / log(_NARROW / _WIDE)
+	var octaves := Vector4(log(_ROUND), log(_WIDE), log(_LEAST), log(_LARGEST)) / log(2.0)
 	return {
 		&"lobelight_line_count": used,
-		&"lobelight_line_widths": Vector2(log(_LEAST), log(_LARGEST)) / log(2.0),
-		&"lobelight_line_fade": Vector2(slope, -slope * log(_ROUND) / log(2.0)),
+		&"lobelight_line_widths": Vector2(octaves.z, octaves.w),
+		&"lobelight_line_fade":
+		Vector4(by_ratio, -by_ratio * octaves.x, by_width, -by_width * octaves.y),
 	}
 
 
 ## What of widths a line draws, from 0 to 1.
-static func get_share(anisotropy: float) -> float:
+static func get_share(roughness: float, anisotropy: float) -> float:
+	var widths := Widths.from_roughness(maxf(roughness, 1e-3), anisotropy)
+	var narrow := minf(widths.x, widths.y)
+	var by_width := clampf(log(narrow / _WIDE) / log(_NARROW / _WIDE), 0.0, 1.0)
+	return by_width * _get_share_of_ratio(anisotropy)
+
+
+static func _get_share_of_ratio(anisotropy: float) -> float:
 	return clampf(log(get_ratio(anisotropy) / _ROUND) / log(_LONG / _ROUND), 0.0, 1.0)
+
+
+# Whether any pixel may.
+func _may_show(roughness: float, anisotropy: float) -> bool:
+	if _can_be_narrower:
+		return _get_share_of_ratio(anisotropy) > 0.0
+	return get_share(roughness, anisotropy) > 0.0
 
 
 ## Of the widths of an anisotropy, the larger one over the smaller one.
@@ -122,7 +154,8 @@ static func get_alpha(roughness: float, anisotropy: float) -> Vector2:
 
 # How many lobes widths need: more would hardly be seen.
 static func _find_used(anisotropy: float, most: int) -> float:
-	return minf(minf(2.0 * get_ratio(anisotropy) + 4.0, COUNTS[-1]), most)
+	var ratio := get_ratio(anisotropy)
+	return minf(minf(2.0 * ratio + 4.0, 0.8 * ratio + 16.0), most)
 
 
 static func _find_count(lobes: float) -> int:

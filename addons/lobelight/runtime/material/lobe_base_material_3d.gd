@@ -21,8 +21,8 @@ enum SpecularAntialiasing {
 
 ## How many lobes a material draws.
 enum Quality {
-	## As many as the widths need: those of the set where they are nearly round, eight with the ready
-	## sets; for long ones 12 to 32, up to 24 in the range of Godot's own materials.
+	## As many as the widths need: those of the set where they are nearly round or wide, eight with the
+	## ready sets; for long ones 12 to 40, up to 24 in the range of Godot's own materials.
 	AUTOMATIC = 0,
 	## Those of the set, whatever the widths.
 	LOBES_8 = 8,
@@ -30,8 +30,10 @@ enum Quality {
 	LOBES_16 = 16,
 	## Of long widths, 24 lobes at most.
 	LOBES_24 = 24,
-	## Of long widths, 32 lobes at most, as with Automatic.
+	## Of long widths, 32 lobes at most.
 	LOBES_32 = 32,
+	## Of long widths, 40 lobes at most, as with Automatic.
+	LOBES_40 = 40,
 }
 
 # The hints of enumerations, as BaseMaterial3D's own.
@@ -46,7 +48,7 @@ const _DIFFUSE_MODES := "Burley,Lambert,Lambert Wrap,Toon"
 const _SPECULAR_MODES := "SchlickGGX,Toon,Disabled"
 const _CHANNELS := "Red,Green,Blue,Alpha,Gray"
 const _OPERATORS := "Add,Multiply"
-const _QUALITIES := "Automatic:0,8 Lobes:8,16 Lobes:16,24 Lobes:24,32 Lobes:32"
+const _QUALITIES := "Automatic:0,8 Lobes:8,16 Lobes:16,24 Lobes:24,32 Lobes:32,40 Lobes:40"
 const _FILTERS := (
 	"Nearest,Linear,Nearest Mipmap,Linear Mipmap,Nearest Mipmap Anisotropic,"
 	+ "Linear Mipmap Anisotropic"
@@ -83,11 +85,12 @@ const Widths := preload("../table/widths.gd")
 		_queue_update()
 
 ## How many lobes a pixel is drawn with, each of them a look-up in the environment. Where one width
-## is more than three times the other, few lobes show each lamp as often as there are lobes: with GGX
-## and Ward such widths have lobes of their own, which are computed instead of looked up in a table,
-## as many as are needed. Widths that are nearly round, all other BRDFs and materials with a [member
-## table] are drawn with the lobes that their tables have. Between ratios of 3 and 3.6 both are
-## drawn, so that nothing is seen of the change.
+## is more than three times the other, few lobes show each lamp as often as there are lobes. With
+## GGX and Ward such widths have lobes of their own, which are computed instead of looked up in a
+## table, as many as are needed. Widths that are nearly round or both wide, all other BRDFs and
+## materials with a [member table] are drawn with the lobes that their tables have. Between ratios
+## of 3 and 3.6, and between narrower widths of 0.06 and 0.1, both are drawn, so that nothing is
+## seen of the change.
 @export_custom(PROPERTY_HINT_ENUM, _QUALITIES) var quality := Quality.AUTOMATIC:
 	set(value):
 		quality = value
@@ -1156,7 +1159,7 @@ func get_shown_anisotropy() -> float:
 
 ## The largest number of lobes that [member quality] allows.
 func get_most_lobes() -> int:
-	return quality if quality != Quality.AUTOMATIC else Quality.LOBES_32
+	return quality if quality != Quality.AUTOMATIC else Quality.LOBES_40
 
 
 ## Whether the widths vary from pixel to pixel.

@@ -148,9 +148,9 @@ func follow(new_roughness: float, shown_anisotropy: float, material: RID) -> boo
 		_row_lookup.w = _row_step * log(width) + _first_row
 		RenderingServer.material_set_param(material, &"lobelight_table_lookup", _row_lookup)
 		return true
+	if not line.follow(roughness, turned):
+		return false
 	if turned != anisotropy:
-		if not line.follow(turned):
-			return false
 		anisotropy = turned
 		RenderingServer.material_set_param(material, &"lobelight_anisotropy", anisotropy)
 	if line.count > 0:
@@ -291,8 +291,14 @@ func _turn(surface: LobeBaseMaterial3D, ignores_anisotropy: bool) -> void:
 
 # `can_vary` tells whether a table could be looked up for each pixel.
 func _choose_line(of_brdf: String, surface: LobeBaseMaterial3D, can_vary: bool) -> void:
-	var can_be_rounder := can_vary and surface.varies_in_anisotropy()
-	line.choose(of_brdf, anisotropy, surface.get_most_lobes(), can_be_rounder)
+	line.choose(
+		of_brdf,
+		roughness,
+		anisotropy,
+		surface.get_most_lobes(),
+		can_vary and surface.varies(),
+		can_vary and surface.varies_in_anisotropy()
+	)
 
 
 func _has_line_alone() -> bool:
@@ -345,8 +351,10 @@ static func get_set(surface: LobeBaseMaterial3D) -> LobeTableSet:
 	return _get_ready_set(DEFAULT_SET)
 
 
-## The lobes without a table that a surface draws with an anisotropy.
-static func find_line(surface: LobeBaseMaterial3D, with_anisotropy: float) -> LineChoice:
+## The lobes without a table that a surface draws with widths.
+static func find_line(
+	surface: LobeBaseMaterial3D, with_roughness: float, with_anisotropy: float
+) -> LineChoice:
 	var found := LineChoice.new()
 	var tables := surface.table_set
 	var of_brdf := DEFAULT_BRDF
@@ -354,8 +362,14 @@ static func find_line(surface: LobeBaseMaterial3D, with_anisotropy: float) -> Li
 		var is_usable := tables.get_problem().is_empty() and not tables.is_isotropic()
 		of_brdf = tables.brdf if is_usable else ""
 	if surface.table == null or tables != null:
-		var can_be_rounder := surface.varies_in_anisotropy()
-		found.choose(of_brdf, with_anisotropy, surface.get_most_lobes(), can_be_rounder)
+		found.choose(
+			of_brdf,
+			with_roughness,
+			with_anisotropy,
+			surface.get_most_lobes(),
+			surface.varies(),
+			surface.varies_in_anisotropy()
+		)
 	return found
 
 
