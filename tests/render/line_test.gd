@@ -13,6 +13,8 @@ const FURNACE_BIAS := 0.01
 const SIDE := 48
 # Where the narrower width is no matter.
 const ROUGHNESS := 0.3
+# To either side of a change.
+const STEP := 1e-6
 # As screens show it.
 const MOST_STEP := 2.0 / 255.0
 
@@ -76,7 +78,7 @@ func test_no_step_is_seen() -> void:
 	for anisotropy in _find_changes():
 		var pictures: Array[Image] = []
 		var materials: Array[LobeMaterial3D] = []
-		for step: float in [-1e-4, 1e-4]:
+		for step: float in [-STEP, STEP]:
 			var material := LobeMaterial3D.new()
 			material.metallic = 1.0
 			material.roughness = ROUGHNESS
@@ -96,16 +98,25 @@ func test_no_step_is_seen() -> void:
 # Where materials change from one shader to another.
 func _find_changes() -> PackedFloat64Array:
 	var changes: PackedFloat64Array = []
-	var last := -1
-	for i in 1100:
-		var anisotropy := 0.5 + 0.6 * i / 1100.0
-		var choice := LineChoice.new()
-		choice.choose("ggx", ROUGHNESS, anisotropy, 40)
-		var kind := 2 * choice.count + int(choice.fades)
-		if last >= 0 and kind != last:
-			changes.append(anisotropy)
-		last = kind
+	for i in 60:
+		var from := 0.5 + 0.01 * i
+		var to := from + 0.01
+		if _find_kind(from) == _find_kind(to):
+			continue
+		for halving in 16:
+			var middle := 0.5 * (from + to)
+			if _find_kind(middle) == _find_kind(from):
+				from = middle
+			else:
+				to = middle
+		changes.append(to)
 	return changes
+
+
+func _find_kind(anisotropy: float) -> int:
+	var choice := LineChoice.new()
+	choice.choose("ggx", ROUGHNESS, anisotropy, 40)
+	return 2 * choice.count + int(choice.fades)
 
 
 func _largest_difference(a: Image, b: Image) -> float:
