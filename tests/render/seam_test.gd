@@ -16,8 +16,10 @@ const VIEWS: PackedVector3Array = [
 # spans 180 of them may be off. What is more than one comes of the sampler: between the texels of
 # coarse levels, and of different faces most, straight lines cut corners of the sphere.
 const WIDTHS: Dictionary[float, float] = {
-	0.001: 1.0, 0.03: 1.0, 0.06: 1.0, 0.1: 1.0, 0.2: 1.7, 0.35: 3.5, 0.6: 8.0
+	0.001: 1.0, 0.03: 1.0, 0.06: 1.0, 0.1: 1.0, 0.2: 1.7, 0.35: 3.2, 0.6: 4.8
 }
+# The same of light of the second degree.
+const BENT_WIDTHS: Dictionary[float, float] = {0.1: 1.5, 0.2: 3.8, 0.35: 8.5, 0.5: 11.0, 0.6: 10.5}
 const ROUND := [[LobeEnvironment3D.Filter.GAUSSIAN], [LobeEnvironment3D.Filter.DISC]]
 const FILTERS := [
 	[LobeEnvironment3D.Filter.BOX],
@@ -126,6 +128,35 @@ func test_lobes_of_a_gradient(filter: LobeEnvironment3D.Filter, _test_parameters
 			assert_float(255.0 * worst).append_failure_message("width %s" % width).is_less(
 				WIDTHS[width]
 			)
+
+
+func test_wide_lobes_of_what_bends(
+	filter: LobeEnvironment3D.Filter, _test_parameters := ROUND
+) -> void:
+	# Harmonics of the second degree, which spherical Gaussians leave 1 - 3 A / kappa of, A being what
+	# they leave of those of the first degree.
+	var bent := func(direction: Vector3) -> Color:
+		var value := 0.5 + _bend(direction)
+		return Color(value, value, value)
+	_environment.panorama = Kit.make_panorama(64, bent)
+	_environment.filter = filter
+	await _environment.rebuild()
+	for width: float in BENT_WIDTHS:
+		_material.table = LobeTable.make_single_lobe(width)
+		var exact := func(o: Vector3, i: Vector3) -> float:
+			var variance := 2.0 * width * width * (o + i).normalized().dot(o)
+			return 0.5 + (1.0 - 3.0 * variance * Kit.mean_cosine(1.0 / variance)) * _bend(i)
+		for view in VIEWS.size():
+			var worst: float = await _worst(view, exact)
+			assert_float(255.0 * worst).append_failure_message("width %s" % width).is_less(
+				BENT_WIDTHS[width]
+			)
+
+
+# A light of the second degree, between -0.4 and 0.4.
+static func _bend(direction: Vector3) -> float:
+	var d := direction.normalized()
+	return 0.4 * (d.dot(Vector3(1, 1, 0.5)) * d.dot(Vector3(1, -1, 0.2)) + 0.8 * d.x * d.z) / 1.2
 
 
 # Of m³, the share that a texel has of the solid angle of those in the middle of a face, over them.

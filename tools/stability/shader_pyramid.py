@@ -24,6 +24,14 @@ REACH = 3.0
 REACHED_SHARE = 1 - REACH**2 / 2 * math.exp(-(REACH**2) / 2) / (1 - math.exp(-(REACH**2) / 2))
 # The rim falls off linearly over one sample: half the fourth moment over the second, less that of a sharp disc.
 RIM_VARIANCE = 5 / 48
+MOST_REACH = 1.5
+# (kernel_variance, shrinking_variance, disc_slope) of the coarsest levels
+COARSE_DISCS = {
+    8: (3.5345, 0.3712, -0.6316),
+    4: (4.3997, 0.4158, -0.9311),
+    2: (2.3639, 0.4549, 0.0),
+    1: (0.7939, 0.0, 0.0),
+}
 # What the constants of the shader, which have three to five digits, leave of a texel's weight.
 CONSTANTS = 2e-4
 # Texels of a level that are compared, at most.
@@ -218,8 +226,11 @@ class Pyramid:
         d = unit(face_direction(face, np.array(x), np.array(y)))
         step = 2 / finer_size
         blurred = level > 1 or self.base > 0
-        shrinking = (3 if blurred else 4) * TENT
-        texels = 3 * LEVEL_VARIANCES[self.filter] + shrinking * (1 - (1 + x * x + y * y) ** -1.5)
+        kernel = (3 * LEVEL_VARIANCES[self.filter], 3 * TENT, 0.0)
+        base, shrinking, slope = COARSE_DISCS.get(size, kernel)
+        if not blurred:
+            shrinking += TENT
+        texels = base + shrinking * (1 - (1 + x * x + y * y) ** -1.5)
         raw = face_directions(finer_size).reshape(-1, 3)
         length = np.linalg.norm(raw, axis=1)
         cosine = raw @ d / length
@@ -227,16 +238,21 @@ class Pyramid:
         light = finer.reshape(-1, 3)
         variance = texels / REACHED_SHARE * step**2
         radius = 2 * math.sqrt(texels - RIM_VARIANCE) * step
-        is_gaussian = self.filter == "gaussian"
-        reach = min(REACH * math.sqrt(variance) if is_gaussian else radius + 0.5 * step, 1.5)
+        is_gaussian = self.filter == "gaussian" and size not in COARSE_DISCS
+        if is_gaussian:
+            reach = REACH * math.sqrt(variance)
+        else:
+            reach = 2 * math.asin(min(0.5 * radius + 0.25 * step, 1.0))
         if is_gaussian:
             kernel = np.exp(-0.5 * distance**2 / variance)
         else:
             kernel = np.clip((radius - distance) / step + 0.5, 0, 1)
+            kernel = kernel * (1 + slope * np.minimum((distance / radius) ** 2, 1))
         weights = kernel / length**3
         angle = np.arccos(np.clip(cosine, -1, 1))
         # What lies beyond the reach is looked at in the corners of rectangles only: it may count or not.
-        sure = angle < reach - (0.75 * step if is_gaussian else 1e-6)
+        everywhere = reach >= MOST_REACH
+        sure = (angle < reach - (0.75 * step if is_gaussian else 1e-6)) | everywhere
         some = weights * sure
         mean = (some[:, None] * light).sum(axis=0) / some.sum()
         unsure = (weights * ~sure)[:, None] * np.abs(light - mean)

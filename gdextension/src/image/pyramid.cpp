@@ -47,6 +47,7 @@ Texels texels_between(double first, double last, int finer_size) {
 // The texels along one axis of a face in which directions at most `reach` away from d lie, as
 // shaders/pyramid_round.gdshader says.
 Texels texels_within(double along, double forward, double reach, int finer_size) {
+  if (reach >= kMostReach) return {0, finer_size - 1};
   constexpr double kEdge = 0.25 * kPi;
   const double sine = std::sin(reach) / std::max(std::hypot(along, forward), 1e-6);
   const double middle = sine < 1.0 ? std::atan2(along, forward) : 0.0;
@@ -66,13 +67,6 @@ glm::dvec2 texel_position(int column, int row, int size) {
   return p;
 }
 
-// What a level is blurred by, as pyramid.gd hands it to the shader.
-struct LevelKernel {
-  bool is_gaussian;
-  double variance;   // in the middle of a face, in solid angles of the finer level's texels there
-  double shrinking;  // what it has more towards the corners, times 1 − m³
-};
-
 // A texel of the level below `finer`, before it is rounded: shaders/pyramid_round.gdshader, where
 // the formulas are explained.
 glm::dvec3 blurred_texel(const Level& finer, const LevelKernel& kernel, int face, int column,
@@ -86,8 +80,9 @@ glm::dvec3 blurred_texel(const Level& finer, const LevelKernel& kernel, int face
       kernel.variance + kernel.shrinking * (1.0 - std::pow(1.0 + squared_place, -1.5));
   const double variance = texels / kReachedShare * step * step;  // of the whole Gaussian
   const double radius = step * 2.0 * std::sqrt(texels - kRimVariance);
-  const double reach =
-      std::min(kernel.is_gaussian ? kKernelReach * std::sqrt(variance) : radius + 0.5 * step, 1.5);
+  const double reach = kernel.is_gaussian
+                           ? kKernelReach * std::sqrt(variance)
+                           : 2.0 * std::asin(std::min(0.5 * radius + 0.25 * step, 1.0));
 
   const double slope = std::tan(reach);
   const double shift =
@@ -126,8 +121,9 @@ glm::dvec3 blurred_texel(const Level& finer, const LevelKernel& kernel, int face
         const double inverse_length = 1.0 / std::sqrt(squared_length + right_part * right_part);
         const double cosine = (axes.x * right_part + along) * inverse_length;
         const double squared = std::max(2.0 - 2.0 * cosine, 0.0);
-        double weight = kernel.is_gaussian ? std::exp(-0.5 * squared / variance)
-                                           : disc_weight(radius, std::sqrt(squared), step);
+        double weight = kernel.is_gaussian
+                            ? std::exp(-0.5 * squared / variance)
+                            : disc_weight(radius, std::sqrt(squared), step, kernel.slope);
         // Times the texel's solid angle.
         weight *= inverse_length * inverse_length * inverse_length;
         sum += weight * glm::dvec3(texel[0], texel[1], texel[2]);
@@ -227,8 +223,12 @@ LightPyramid filter_panorama(const Panorama& panorama, const PyramidOptions& opt
       });
   for (int level = 1; level < levels; ++level) {
     const bool finer_is_blurred = level > 1 || options.base_variance > 0.0;
-    const LevelKernel kernel{options.is_gaussian, 3.0 * options.level_variance,
-                             (finer_is_blurred ? 3.0 : 4.0) * kTentVariance};
+    const LevelKernel* coarse = coarse_disc(options.size >> level);
+    LevelKernel kernel = coarse != nullptr
+                             ? *coarse
+                             : LevelKernel{options.is_gaussian, 3.0 * options.level_variance,
+                                           3.0 * kTentVariance, 0.0};
+    if (!finer_is_blurred) kernel.shrinking += kTentVariance;
     Progress part(progress, level_cost(options, level) / cost);
     finer = fill_level(pyramid, options.size >> level, level, options, part,
                        [&](int face, int column, int row) {

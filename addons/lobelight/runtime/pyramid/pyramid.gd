@@ -19,6 +19,17 @@ const _REDUCE_SHADER := "res://addons/lobelight/runtime/filters/pyramid_reduce.g
 ## By filter, a third of the variance that a level's kernel has per axis, in solid angles of the
 ## finer level's texels: c in shaders/environment.gdshaderinc.
 const LEVEL_VARIANCES: Array[float] = [1.0 / 12.0, 1.0 / 4.0, 5.0 / 6.0, 5.0 / 6.0]
+## Of the coarsest levels, by the texels along the side of a face: what discs they are blurred with,
+## by both round filters, as (kernel_variance, shrinking_variance, disc_slope) of
+## shaders/pyramid_round.gdshader. They are those with which light of many kinds, looked up between
+## texels and mixed between levels, comes closest to that light under a Gaussian of the variance
+## that is asked for (least squares over spherical harmonics to degree 10 and over all variances).
+const COARSE_DISCS: Dictionary[int, Vector3] = {
+	8: Vector3(3.5345, 0.3712, -0.6316),
+	4: Vector3(4.3997, 0.4158, -0.9311),
+	2: Vector3(2.3639, 0.4549, 0.0),
+	1: Vector3(0.7939, 0.0, 0.0),
+}
 ## Texels along the side of a face: the least and the most that can be asked for.
 const MIN_SIZE := 4
 const MAX_SIZE := 2048
@@ -212,15 +223,26 @@ func _set_up_levels(
 		}
 		if is_round(filter):
 			var finer_is_blurred := levels.size() > 1 or level_0_variance > 0.0
-			level[&"kernel_variance"] = 3.0 * LEVEL_VARIANCES[filter]
-			level[&"shrinking_variance"] = (3.0 if finer_is_blurred else 4.0) * _TENT_VARIANCE
-			level[&"is_gaussian"] = filter == Filter.GAUSSIAN
+			var kernel := Vector3(3.0 * LEVEL_VARIANCES[filter], 3.0 * _TENT_VARIANCE, 0.0)
+			kernel = COARSE_DISCS.get(level_size, kernel)
+			level[&"kernel_variance"] = kernel.x
+			level[&"shrinking_variance"] = kernel.y + (0.0 if finer_is_blurred else _TENT_VARIANCE)
+			level[&"disc_slope"] = kernel.z
+			level[&"is_gaussian"] = filter == Filter.GAUSSIAN and level_size not in COARSE_DISCS
 			_add_level(level_size, RoundShader, level)
 		else:
 			level[&"binomial"] = filter == Filter.BINOMIAL
 			_add_level(level_size, OnDemand.fetch(_REDUCE_SHADER, OnDemand.FILTERS), level)
-		_fetches.append(_PLACE_FETCHES + _LEVEL_FETCHES[filter])
+		_fetches.append(_PLACE_FETCHES + _count_level_fetches(level_size))
 		level_size >>= 1
+
+
+func _count_level_fetches(level_size: int) -> float:
+	if not is_round(filter) or level_size not in COARSE_DISCS:
+		return _LEVEL_FETCHES[filter]
+	# A disc with its rim; at most all texels.
+	const RIM := 0.5
+	return minf(PI * pow(2.0 * sqrt(COARSE_DISCS[level_size].x) + RIM, 2.0), 24.0 * level_size ** 2)
 
 
 func _count_panorama_fetches(width: int, face_size: int) -> float:
