@@ -164,7 +164,8 @@ TEST_CASE("filter_panorama: each level blurs by what it states, in every place a
       for (const double angle : {0.0, 0.25 * kPi}) {
         const glm::dvec3 first = std::cos(angle) * across + std::sin(angle) * along;
         const Moments before = moments_of(pyramid, 0, axis, first);
-        for (int level = 1; level <= 3; ++level) {
+        // Faces of 8 texels and fewer have discs of their own.
+        for (int level = 1; level <= 2; ++level) {
           const double factor = std::pow(4.0, level) - 1.0;
           const double stated = kTexel * factor * (kVariance + (1.0 - before.m_cubed) / 6.0);
           const Moments after = moments_of(pyramid, level, axis, first);
