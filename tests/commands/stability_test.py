@@ -47,6 +47,8 @@ CHANGES = {
     "pyramid_round.gdshader": ("1.0 - 0.25 /", "1.0 - 0.35 /", ["pyramid_disc_16_32"]),
     "round_kernel.gdshaderinc": ("RIM_VARIANCE = 0.104", "RIM_VARIANCE = 0.124", ["pyramid_disc_16_32"]),
     "sheen.gdshaderinc": ("over.kept = 1.0 -", "over.kept = 1.003 -", ["sheen_levels"]),
+    "source_highlights.gdshaderinc": ("+ 2.50662827", "+ 2.51662827", ["sources"]),
+    "sources.gdshaderinc": ("reach = 1.5957691", "reach = 1.5967691", ["sources"]),
     "specular.gdshaderinc": ("reflection.albedo, 0.05) - 1.0", "reflection.albedo, 0.05) - 0.999", ["reflect_3_long_levels"]),
     "triplanar.gdshaderinc": ("share.y + share.z", "share.y + 0.999 * share.z", ["planes"]),
     "views.gdshaderinc": ("vec3(2.4)", "vec3(2.41)", ["views_1"]),

@@ -3,9 +3,11 @@ extends GdUnitTestSuite
 ## then.
 
 const Diet := preload("res://addons/lobelight/editor/export/diet.gd")
+const Features := preload("res://addons/lobelight/editor/export/features.gd")
 const FlatShader := preload("res://addons/lobelight/editor/export/flat_shader.gd")
 const FrozenMaterial := preload("res://addons/lobelight/runtime/frozen/frozen_material.gd")
 const FrozenMaterials := preload("res://addons/lobelight/editor/export/frozen_materials.gd")
+const OnDemand := preload("res://addons/lobelight/runtime/on_demand.gd")
 const ProjectFiles := preload("res://addons/lobelight/editor/export/project_files.gd")
 const SCENES := "res://tests/diet/scenes/"
 
@@ -146,6 +148,16 @@ func test_what_is_exported_has_all_that_its_shader_takes() -> void:
 	assert_int(count).is_greater(0)
 	root.free()
 	DirAccess.remove_absolute(path)
+
+
+func test_lights_with_sources_are_a_feature() -> void:
+	var features := Features.new()
+	var light := LobeLight.make_dark(true)
+	features.look_at_light("plain.res", light)
+	assert_bool(features.reached.is_empty()).is_true()
+	light.sources = PlaceholderTexture2D.new()
+	features.look_at_light("sunny.res", light)
+	assert_str(features.reached[OnDemand.SOURCES]).is_equal("sunny.res")
 
 
 func test_lights_that_take_another_shader_keep_materials() -> void:

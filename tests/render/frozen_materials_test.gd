@@ -1,9 +1,11 @@
 extends GdUnitTestSuite
 ## That a frozen material, as exports have it, looks as the one that it was made of.
 
+const Features := preload("res://addons/lobelight/editor/export/features.gd")
 const FrozenMaterials := preload("res://addons/lobelight/editor/export/frozen_materials.gd")
 const Kit := preload("support/render_kit.gd")
 const Oracle := preload("support/material_oracle.gd")
+const OnDemand := preload("res://addons/lobelight/runtime/on_demand.gd")
 const SIDE := 48
 
 const SURFACES := [
@@ -68,6 +70,32 @@ func test_a_frozen_material_looks_the_same(
 			var wanted := expected.get_pixel(x, y)
 			var got := image.get_pixel(x, y)
 			assert_float(absf(got.r - wanted.r) + absf(got.g - wanted.g)).is_less(1.0 / 255.0)
+
+
+func test_a_frozen_material_shows_sources_where_there_are_any() -> void:
+	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
+	var frozen := FrozenMaterials.new()
+	var features := Features.new()
+	features.add(OnDemand.SOURCES, "a test")
+	frozen.freeze(features, Callable())
+	var shown := frozen.make(material)
+	material = null
+	_view.add_child(Kit.make_sphere(shown, 32))
+	var before: Image = await _view.capture()
+	var light := LobeLight.make_constant(Color.BLACK, true)
+	var image := Image.create_empty(4, 3, false, Image.FORMAT_RGBAF)
+	image.set_pixel(0, 0, Color(0.0, 0.0, 1.0, 0.05))
+	image.set_pixel(0, 1, Color(5.0, 5.0, 5.0))
+	light.sources = ImageTexture.create_from_image(image)
+	shown.light = light
+	await get_tree().process_frame
+	var lit: Image = await _view.capture()
+	assert_float(lit.get_pixel(24, 24).r).is_greater(0.1)
+	shown.light = null
+	await get_tree().process_frame
+	var after: Image = await _view.capture()
+	assert_float(after.get_pixel(24, 24).r).is_equal_approx(before.get_pixel(24, 24).r, 1e-3)
 
 
 static func _make(name: String, value: Variant) -> Variant:

@@ -35,6 +35,7 @@ SHADER_TITLES = {
     "shader reflection": "Reflected light",
     "shader coat": "Clear coat",
     "shader sheen": "Sheen",
+    "shader sources": "Sources",
     "shader diffuse": "Diffuse light",
     "shader material": "Whole materials",
     "shader colour": "Colours",

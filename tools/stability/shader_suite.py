@@ -19,6 +19,7 @@ import shader_placed
 import shader_planes
 import shader_points
 import shader_pyramid
+import shader_sources
 import shader_tables
 import shader_values
 import shader_widths
@@ -77,6 +78,7 @@ def make(quick, records):
         *shader_line.probes(quick),
         *shader_planes.probes(quick),
         *shader_occlusion.probes(quick),
+        *shader_sources.probes(quick),
         *shader_tables.probes(quick, tables),
         *(shader_tables.lobe_probe(table, title, quick, few=True) for table, title in fitted),
         *lit,
