@@ -18,6 +18,8 @@ const Studio := preload("studio/studio.gd")
 const Sunset := preload("environments/sunset.exr")
 ## All objects have the sliders' widths.
 const EVERY_OBJECT := -1
+# Frames in which sources are taken out of a light after it has first been drawn, and some more.
+const _SOURCE_FRAMES := 24
 # Texels along the side of the captured map's faces: it is made in every frame.
 const _CAPTURE_SIZE := 128
 
@@ -194,6 +196,10 @@ func prepare_light() -> String:
 		made = await _light.rebuild()
 	if not made:
 		return _light.get_rebuild_error()
+	if _light.max_sources > 0:
+		# Suns and lamps are taken out some frames later.
+		for frame in _SOURCE_FRAMES:
+			await RenderingServer.frame_post_draw
 	if is_inside():
 		var problem := await _interior.prepare_light()
 		if problem:
@@ -244,6 +250,8 @@ func _show_environment() -> void:
 	_backdrop.visible = not live
 	_light.panorama = setting.panorama
 	_light.size = _CAPTURE_SIZE if live else 0
+	# The captured map is seen behind the scene, suns and all.
+	_light.max_sources = 0 if live else 4
 	if live:
 		_light.source = LobeEnvironment3D.Source.CAPTURE
 		# In Compatibility a face is read back at a time, which is enough for one frame.

@@ -24,6 +24,8 @@ const LIGHTS: PackedStringArray = ["live", "baked"]
 const _MEASURED_UPDATES := 3
 # The times of the GPU come some frames late.
 const _FRAMES_LATE := 4
+# Frames in which sources are taken out of a live light after its first update, and some more.
+const _SOURCE_FRAMES := 24
 
 var tree: SceneTree
 ## What lights the sphere; null in a room.
@@ -101,8 +103,14 @@ func light_materials() -> String:
 				return failure
 		if room == null:
 			tree.root.add_child(_environment)
-	if _environment.get_cubemap() == null and not await _environment.rebuild():
+	if _environment.get_cubemap() != null:
+		return ""
+	if not await _environment.rebuild():
 		return _environment.get_rebuild_error()
+	if max_sources > 0 and light_form != "baked":
+		# Suns and lamps are taken out some frames later.
+		for frame in _SOURCE_FRAMES:
+			await RenderingServer.frame_post_draw
 	return ""
 
 

@@ -18,6 +18,8 @@ static func of_panorama(panorama: Texture2D) -> RefCounted:
 	var environment := LobeEnvironment3D.new()
 	environment.filter = LobeEnvironment3D.Filter.BOX
 	environment.panorama = panorama
+	# The methods have no suns and lamps apart from their map.
+	environment.max_sources = 0
 	var made: RefCounted = null
 	if await environment.rebuild():
 		made = new()
