@@ -120,6 +120,10 @@ compare_refuses "an empty file" "empty.exr" "${good_compare[@]}" --methods gmm4 
 compare_refuses "a folder for an environment" "$work" "${good_compare[@]}" --methods gmm4 --env "$work"
 compare_refuses "an unknown form of importance sampling" "--fis is best" \
   "${good_compare[@]}" --methods fis8 --fis newest --env "$environment"
+compare_refuses "a light that there is not" "--light is live or baked" \
+  "${good_compare[@]}" --methods gmm4 --light dim --env "$environment"
+compare_refuses "more sources than materials draw" "max-sources" \
+  "${good_compare[@]}" --methods gmm4 --max-sources 5 --env "$environment"
 compare_refuses "an unknown method" "magic8" "${good_compare[@]}" --methods magic8 --env "$environment"
 compare_refuses "a method without lobes" "gmm0" "${good_compare[@]}" --methods gmm0 --env "$environment"
 compare_refuses "a method with a thousand lobes" "1000" \
