@@ -96,7 +96,7 @@ func _compare(methods: Array[ComparisonMethod]) -> String:
 		if failure.is_empty():
 			viewports[method.name] = _make_viewport(method)
 			await method.settle(viewports[method.name])
-			failure = await _draw(method.name, viewports[method.name])
+			failure = await _draw(method, viewports[method.name])
 	if failure.is_empty():
 		if timing_rounds > 0:
 			viewports[_EMPTY] = _make_empty_viewport()
@@ -180,13 +180,17 @@ func _make_empty_viewport() -> LinearViewport:
 	return viewport
 
 
-## Saves what a viewport shows. Returns one sentence on failure, otherwise empty.
-func _draw(title: String, viewport: LinearViewport) -> String:
+## Saves what a method's viewport shows. Returns one sentence on failure, otherwise empty.
+func _draw(method: ComparisonMethod, viewport: LinearViewport) -> String:
 	# Drivers compile in the background: the first frames may lack the material.
 	await viewport.measure_gpu_time(2)
 	var picture := await viewport.capture()
 	picture.convert(Image.FORMAT_RGBF)
-	return _save(title, picture.get_data().to_float32_array())
+	var pixels := picture.get_data().to_float32_array()
+	if method.energy != 1.0:
+		for i in pixels.size():
+			pixels[i] /= method.energy
+	return _save(method.name, pixels)
 
 
 ## GPU milliseconds of every method at [member timing_size], one a round: all of them in each round,

@@ -10,6 +10,8 @@ var brdf: String
 var alpha: PackedFloat64Array
 ## The room that the sphere is in; null under a panorama.
 var room: CompareRoom
+## What the light is multiplied by when the sphere is drawn; pictures are divided by it.
+var energy := 1.0
 
 
 ## Makes what the pictures need: tables, maps. Returns one sentence on failure, otherwise empty.

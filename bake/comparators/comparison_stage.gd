@@ -18,6 +18,7 @@ const FILTERS: Dictionary[String, LobeEnvironment3D.Filter] = {
 ## The best kernels and samplers there are; the chapter of 2007; kernels of the density's integral
 ## for GGX too. See the method.
 const FIS_FORMS: PackedStringArray = ["best", "published", "integral"]
+const LARGEST_HALF := 65504.0
 ## How the project's own light is made: on the GPU while the program runs, or as it is saved.
 const LIGHTS: PackedStringArray = ["live", "baked"]
 
@@ -55,6 +56,10 @@ var toral_views := Vector2i.ZERO
 var fis_bias := 0.0
 ## Of fis: which publications it follows, one of [constant FIS_FORMS].
 var fis_form := "best"
+
+## What the project's own light is multiplied by before it is drawn, so that pictures, which have
+## half floats, hold what a map above 65504 reflects; known after [method light_materials].
+var energy := 1.0
 
 var _environment: LobeEnvironment3D
 # Worlds with the room's walls, one for each capture.
@@ -97,6 +102,9 @@ func light_materials() -> String:
 	if _environment == null:
 		_environment = _make_environment(filter)
 		_environment.max_sources = max_sources
+		if room == null:
+			energy = _find_energy()
+			_environment.energy = energy
 		if light_form == "baked":
 			var failure := await _bake_light()
 			if failure:
@@ -112,6 +120,16 @@ func light_materials() -> String:
 		for frame in _SOURCE_FRAMES:
 			await RenderingServer.frame_post_draw
 	return ""
+
+
+# A power of two that brings the brightest texel below what half floats hold.
+func _find_energy() -> float:
+	var image := panorama.get_image()
+	if image.get_format() != Image.FORMAT_RGBF:
+		return 1.0
+	var values := image.get_data().to_float32_array()
+	values.sort()
+	return pow(2.0, -maxf(ceilf(log(values[-1] / LARGEST_HALF) / log(2.0)), 0.0))
 
 
 # The environment's light as its import makes it, in half floats. Returns one sentence on failure.

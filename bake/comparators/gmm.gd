@@ -54,6 +54,7 @@ func set_up_viewport(viewport: LinearViewport) -> void:
 func _prepare_panorama(stage: ComparisonStage) -> String:
 	_filter = stage.filter
 	var failure := await stage.light_materials()
+	energy = stage.energy
 	_face_size = stage.face_size()
 	return failure
 

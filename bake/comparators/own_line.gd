@@ -33,6 +33,7 @@ func prepare(stage: ComparisonStage) -> String:
 		_material.show_widths(widths)
 	_filter = stage.filter
 	var failure := await stage.light_materials()
+	energy = stage.energy
 	_face_size = stage.face_size()
 	return failure
 
