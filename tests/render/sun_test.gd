@@ -7,7 +7,7 @@ const LightFormats := preload("res://addons/lobelight/editor/light/light_formats
 const PanoramaFilter := preload("res://addons/lobelight/editor/light/panorama_filter.gd")
 
 # And how far the sums over the pictures may be apart: a mirror's sun is about one pixel wide.
-const ROUGHNESSES := [[0.0, 0.04], [0.1, 0.06], [0.3, 0.01], [0.6, 0.01]]
+const ROUGHNESSES := [[0.0, 0.04], [0.1, 0.02], [0.3, 0.01], [0.6, 0.01]]
 const SETS := "res://addons/lobelight/tables/ggx_8.res"
 const HEIGHT := 96
 const SIDE := 112
