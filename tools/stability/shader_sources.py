@@ -39,6 +39,16 @@ def ggx(h, steps, squares):
     return half * (WEIGHTS @ bell) / (math.pi * math.sqrt(squares[0] * squares[1])), max(values)
 
 
+def flat_top(h, steps, squares):
+    """What a source that is as flat as a lamp has more there, of it what the highlight leaves."""
+    lengths = np.linalg.norm(steps, axis=1)
+    square = float(np.sum((steps[:, 2] / lengths**2) ** 2))
+    spread = steps @ np.diag([1 / squares[0], 1 / squares[1], 1.0]) @ steps.T
+    narrow = 0.5 * np.trace(np.linalg.inv(spread))
+    more = math.exp(-square * square / (4 * math.pi)) / math.pi**2 - math.exp(-0.5 * square) / (2 * math.pi)
+    return 0.85 / (1 + 3.3 * narrow) * more / (lengths[0] * lengths[1])
+
+
 def ward(h, steps, squares):
     m = h[:2] / h[2]
     moved = (steps[:, :2] - np.outer(steps[:, 2], m)) / h[2]
@@ -51,6 +61,7 @@ def expect_source(row):
     direction, deviation, o, squares = row[:3], row[3], np.array(row[4:7]), row[8:10]
     z, h, steps = half_vector(direction, deviation, o)
     wanted, wide = ggx(h, steps, squares)
+    top = flat_top(h, steps, squares)
     # The formula comes so close: 0.2 % for narrow sources, 10 % where source and highlight are of about the same width, and 30 %
     # where it is much wider, between the source's image and GGX's tail.
     close = 2e-3 + min(wide / 2, 0.1) if wide < 0.3 else 0.3
@@ -61,7 +72,7 @@ def expect_source(row):
     above = min(max(0.5 + 0.31332853 * direction[2] / deviation, 0.0), 1.0)
     return [
         Near((0,), (z,), 16 * U + 8 * U * deviation, "share"),
-        Near((1,), (wanted,), close * wanted, "weight"),
+        Near((1,), (max(wanted + top, 0.0),), close * wanted + 1e-2 * abs(top), "weight"),
         # Half-vectors are 8 U off, of slopes that are as small as the widths.
         Near((2,), (of_ward,), (1e-4 + 64 * U * square / math.sqrt(min(squares))) * of_ward + 1e-37, "weight"),
         Near((3,), (gaussian,), 1e-5 * (1 + apart / variance) * gaussian, "weight"),
