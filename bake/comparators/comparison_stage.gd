@@ -125,7 +125,7 @@ func light_materials() -> String:
 # A power of two that brings the brightest texel below what half floats hold.
 func _find_energy() -> float:
 	var image := panorama.get_image()
-	if image.get_format() != Image.FORMAT_RGBF:
+	if image == null or image.get_format() != Image.FORMAT_RGBF:
 		return 1.0
 	var values := image.get_data().to_float32_array()
 	values.sort()
