@@ -64,6 +64,29 @@ func test_long_highlights(brdf: String, x: float, y: float, _test_parameters := 
 	)
 
 
+func test_the_number_of_lobes_goes_by_the_widths() -> void:
+	# Anisotropies, roughnesses and what is drawn: the table's lobes and the line's.
+	var cases := [
+		[0.0, 0.3, 8, 0], [0.7, 0.3, 8, 0], [0.78, 0.3, 8, 12], [0.9, 0.3, 0, 16], [1.0, 0.3, 0, 24]
+	]
+	# Where the narrower width is wide, where the longer one is the second, and beyond Godot's range.
+	cases.append_array([[0.9, 0.8, 8, 0], [-1.0, 0.3, 8, 0], [1.1, 0.3, 0, 40]])
+	for case: Array in cases:
+		var material := LobeMaterial3D.new()
+		material.metallic = 1.0
+		material.anisotropy_enabled = true
+		material.anisotropy = case[0]
+		material.roughness = case[1]
+		var fetches := material.get_fetches()
+		assert_int(fetches["table"]).append_failure_message(str(case)).is_equal(case[2])
+		assert_int(fetches["environment"]).append_failure_message(str(case)).is_equal(
+			case[2] + case[3]
+		)
+		material.quality = LobeMaterial3D.Quality.LOBES_8
+		assert_int(material.get_fetches()["environment"]).is_equal(8)
+		assert_bool("LOBELIGHT_LINE" in material.get_shader_code()).is_false()
+
+
 func test_no_step_is_seen() -> void:
 	var environment := LobeEnvironment3D.new()
 	_view.add_child(environment)

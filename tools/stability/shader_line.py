@@ -93,7 +93,7 @@ def probes(quick):
             name = f"line_{brdf}_{used:g}"
             probe = Probe(name, "shader line", "line", 5, partial(expect, brdf, used))
             probe.defines = (f"LOBELIGHT_LOBES {COUNT}", f"LOBELIGHT_LINE {COUNT}", f"LOBELIGHT_LINE_{brdf.upper()}")
-            probe.uniforms = {"lobelight_line_count": used}
+            probe.uniforms = {"lobelight_line_count": [used]}
             for alpha in widths:
                 rows = [
                     (*view_at(elevation, azimuth), 0.0, *alpha, number, 0.0)

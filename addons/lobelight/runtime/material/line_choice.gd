@@ -160,7 +160,8 @@ static func _find_used(anisotropy: float, most: int) -> float:
 
 static func _find_count(lobes: float) -> int:
 	for enough in COUNTS:
-		if lobes <= enough:
+		# Godot's largest anisotropy needs 24, but for rounding.
+		if lobes < enough + 1e-3:
 			return enough
 	return COUNTS[-1]
 
