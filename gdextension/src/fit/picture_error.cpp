@@ -14,8 +14,8 @@ namespace lobelight {
 
 namespace {
 
-constexpr int kTurns = 5;  // of each view against each light
-constexpr int kNodesPerAxis = 64;
+constexpr int kTurns = 4;  // of each view against each light
+constexpr int kNodesPerAxis = 48;
 constexpr double kRotation = 0.5;  // other nodes than those of seed 0
 
 // Points of a Kronecker sequence in several dimensions (Roberts 2018): `dimension` from 0 to 5.
@@ -81,6 +81,8 @@ std::vector<Lamp> made_up_light(std::size_t light) {
 }
 
 constexpr double kAmbient = 0.5;
+// Where a lamp's density has fallen by e to this power, it counts for nothing.
+constexpr double kDark = 18.0;
 
 // ∫ L g of a planar Gaussian g of this variance; 0 for the light itself.
 double light_under(const std::vector<Lamp>& lamps, const glm::dvec3& direction, double variance) {
@@ -89,7 +91,7 @@ double light_under(const std::vector<Lamp>& lamps, const glm::dvec3& direction, 
     const double kappa = 1.0 / (lamp.variance + variance);
     const glm::dvec3 d = direction - lamp.direction;
     const double exponent = 0.5 * kappa * glm::dot(d, d);
-    if (exponent > 18.0) continue;
+    if (exponent > kDark) continue;
     const double rest = kappa < 9.0 ? 1.0 - std::exp(-2.0 * kappa) : 1.0;
     sum += lamp.flux * kappa / (2.0 * kPi * rest) * std::exp(-exponent);
   }
@@ -100,21 +102,28 @@ double light_under(const std::vector<Lamp>& lamps, const glm::dvec3& direction, 
 class LightMap {
  public:
   static constexpr int kSide = 512;
+  // Texels for which lamps are looked up together, and more than the chord from their middle to
+  // each of them.
+  static constexpr int kSegment = 16;
+  static constexpr double kSegmentReach = 0.1;
 
   LightMap(const std::vector<Lamp>& lamps, int threads, const Progress& progress)
       : texels_(static_cast<std::size_t>(kSide + 1) * (kSide + 1)) {
     parallel_for(kSide + 1, threads, progress, [&](std::size_t row) {
+      std::vector<Lamp> near;
+      near.reserve(lamps.size());
       for (int column = 0; column <= kSide; ++column) {
-        const double x = 2.0 * column / kSide - 1.0;
-        const double y = 2.0 * static_cast<double>(row) / kSide - 1.0;
-        const double z = 1.0 - std::abs(x) - std::abs(y);
-        glm::dvec3 d(x, y, z);
-        if (z < 0.0) {
-          d.x = std::copysign(1.0 - std::abs(y), x);
-          d.y = std::copysign(1.0 - std::abs(x), y);
+        if (column % kSegment == 0) {
+          near.clear();
+          const glm::dvec3 middle = direction(column + kSegment / 2, static_cast<int>(row));
+          for (const Lamp& lamp : lamps) {
+            const double reach = kSegmentReach + std::sqrt(2.0 * kDark * lamp.variance);
+            const glm::dvec3 d = middle - lamp.direction;
+            if (glm::dot(d, d) < reach * reach) near.push_back(lamp);
+          }
         }
         texels_[row * (kSide + 1) + static_cast<std::size_t>(column)] =
-            static_cast<float>(light_under(lamps, glm::normalize(d), 0.0));
+            static_cast<float>(light_under(near, direction(column, static_cast<int>(row)), 0.0));
       }
     });
   }
@@ -143,6 +152,16 @@ class LightMap {
   }
 
  private:
+  // Of a texel; columns beyond the last one are as good for a middle.
+  static glm::dvec3 direction(int column, int row) {
+    const double x = 2.0 * std::min(column, kSide) / kSide - 1.0;
+    const double y = 2.0 * row / kSide - 1.0;
+    const double z = 1.0 - std::abs(x) - std::abs(y);
+    if (z >= 0.0) return glm::normalize(glm::dvec3(x, y, z));
+    return glm::normalize(
+        glm::dvec3(std::copysign(1.0 - std::abs(y), x), std::copysign(1.0 - std::abs(x), y), z));
+  }
+
   std::vector<float> texels_;
 };
 

@@ -73,16 +73,23 @@ bool arcs_may_win(std::string_view brdf, const glm::dvec2& alpha) {
 bool arcs_may_win(const Brdf& brdf) { return arcs_may_win(brdf.name(), brdf.alpha()); }
 
 ArcTable fit_arcs(const Brdf& brdf, const LobeTable& model, double reach, const PictureError& error,
-                  int threads, const Progress& progress) {
+                  const PictureErrors* others, int threads, const Progress& progress) {
   const bool ggx = brdf.name() == "ggx";
   const std::vector<double> reaches = reach > 0.0 ? std::vector<double>{reach}
-                                      : ggx       ? std::vector<double>{4.5, 6.0, 8.5, 12.0}
+                                      : ggx       ? std::vector<double>{6.0, 8.5, 12.0}
                                                   : std::vector<double>{1.6, 1.8, 2.0, 2.3, 2.6};
   std::optional<ArcTable> best;
+  double least = 0.0;
+  PictureErrors yardstick;
+  if (others) yardstick = *others;
   for (const double candidate : reaches) {
     LobeTable table = arc_table(brdf, model, arc_shape(brdf, candidate), threads, progress);
     const PictureErrors own = error(table);
-    if (best && !(own.lamps * own.windows < best->errors.lamps * best->errors.windows)) continue;
+    if (!best && !others) yardstick = own;
+    // Under the light that it is the worse for.
+    const double worse = std::max(own.lamps / yardstick.lamps, own.windows / yardstick.windows);
+    if (best && !(worse < least)) continue;
+    least = worse;
     best = ArcTable{std::move(table), candidate, own};
   }
   return std::move(*best);

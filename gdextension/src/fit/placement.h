@@ -36,9 +36,10 @@ struct ArcTable {
 };
 
 // The best table of arcs for `brdf`, of as many lobes and views as `model`, and with the weights of
-// its views: the error chooses the reach, unless `reach` is above 0. All views have one shape, so
+// its views: the error chooses the reach, unless `reach` is above 0: beside that of `others`, which
+// may be null, under the light where the arcs fare worse. All views have one shape, so
 // that neighbouring ones can be interpolated.
 ArcTable fit_arcs(const Brdf& brdf, const LobeTable& model, double reach, const PictureError& error,
-                  int threads, const Progress& progress);
+                  const PictureErrors* others, int threads, const Progress& progress);
 
 }  // namespace lobelight

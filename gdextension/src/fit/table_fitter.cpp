@@ -97,7 +97,7 @@ void report_arcs(const Brdf& brdf, const Recipe& recipe, const FitOptions& optio
   parallel_for(report.iterations.size(), recipe.threads, progress, [&](std::size_t view) {
     const int t = static_cast<int>(view) % elevations;
     const int p = static_cast<int>(view) / elevations;
-    const Slice slice = sample_slice(brdf, arcs.table.view(t, p), options.nodes_per_axis,
+    const Slice slice = sample_slice(brdf, arcs.table.view(t, p), options.nodes_per_axis / 2,
                                      seed_rotation(recipe.seed));
     EmOptions none;
     none.max_iterations = 0;
@@ -237,8 +237,12 @@ LobeTable fit_table(const Brdf& brdf, const Recipe& recipe, Progress& progress, 
   }
   if (arcs) {
     const PictureError error(brdf, table.views(), recipe.threads, progress);
-    ArcTable found = fit_arcs(brdf, table, recipe.reach, error, recipe.threads, progress);
-    if (recipe.placement == Placement::arc || is_clearly_better(found.errors, error(table))) {
+    const bool alone = recipe.placement == Placement::arc;
+    PictureErrors likely;
+    if (!alone) likely = error(table);
+    ArcTable found = fit_arcs(brdf, table, recipe.reach, error, alone ? nullptr : &likely,
+                              recipe.threads, progress);
+    if (alone || is_clearly_better(found.errors, likely)) {
       report_arcs(brdf, recipe, options, found, progress, used);
       table = std::move(found.table);
     }
