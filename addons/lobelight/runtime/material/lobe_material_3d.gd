@@ -80,6 +80,7 @@ const _INCLUDES: Array[ShaderInclude] = [
 	preload("../shaders/frame.gdshaderinc"),
 	preload("../lamps/lamps.gdshaderinc"),
 	preload("../line/line.gdshaderinc"),
+	preload("../line/line_shift.gdshaderinc"),
 	preload("../shaders/lobe_table.gdshaderinc"),
 	preload("../shaders/material.gdshaderinc"),
 	preload("../shaders/material_inputs.gdshaderinc"),

@@ -40,6 +40,11 @@ const _SOURCES: Dictionary[String, String] = {
 	"ward": "SOURCES_WARD",
 	"ward_bounded": "SOURCES_WARD_BOUNDED",
 }
+const _TAA := "rendering/anti_aliasing/quality/use_taa"
+const _SCALING := "rendering/scaling_3d/mode"
+const _SCALING_OVER_FRAMES: PackedInt32Array = [
+	Viewport.SCALING_3D_MODE_FSR2, Viewport.SCALING_3D_MODE_METALFX_TEMPORAL
+]
 const _LIMITER := "rendering/anti_aliasing/screen_space_roughness_limiter/enabled"
 ## Lookups of the diffuse light, see diffuse/diffuse.gdshaderinc.
 const DIFFUSE_FETCHES := 6
@@ -175,6 +180,8 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		defines.append("LINE_" + choice.line.MODELS[choice.line.brdf])
 		if choice.line.fades:
 			defines.append("LINE_FADES")
+		if _is_mean_of_frames():
+			defines.append("LINE_SHIFTED")
 	if choice.is_per_pixel:
 		defines.append("WIDTHS_PER_PIXEL")
 	elif choice.has_second_texels():
@@ -212,6 +219,14 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 		if surface.vertex_color_is_srgb:
 			defines.append("SRGB_VERTEX_COLOUR")
 	return defines
+
+
+# Whether the project's viewports show means over frames: TAA, FSR 2 and MetalFX' temporal scaling.
+static func _is_mean_of_frames() -> bool:
+	if RenderingServer.get_current_rendering_method() != "forward_plus":
+		return false
+	var scaling: int = ProjectSettings.get_setting(_SCALING, Viewport.SCALING_3D_MODE_BILINEAR)
+	return ProjectSettings.get_setting(_TAA, false) or scaling in _SCALING_OVER_FRAMES
 
 
 # Whether the engine itself widens its lights' highlights where normals differ from pixel to pixel.
