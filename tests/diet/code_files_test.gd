@@ -11,7 +11,7 @@ const FEATURES: PackedStringArray = [
 	"clear_coat/clear_coat.gdshaderinc",
 	"diffuse/diffuse.gdshaderinc",
 	"filters/pyramid_reduce.gdshader",
-	"skies/pyramid_views.gdshader",
+	"skies/six_views.gd",
 	"skies/world_views.gd",
 	"conversion/material_conversion.gd",
 	"probes/placed_lights.gd",
