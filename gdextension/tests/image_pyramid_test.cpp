@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "base/pi.h"
+#include "fit/pyramid_kernel.h"
+#include "image/cube_faces.h"
 #include "image/pyramid.h"
 #include "table/half_float.h"
 #include "watched_progress.h"
@@ -142,6 +144,53 @@ TEST_CASE("filter_panorama: no level gains or loses light") {
     for (int level = 0; level < 6; ++level) {
       CAPTURE(level);
       CHECK(mean_of(pyramid, level) == doctest::Approx(stated).epsilon(0.015));
+    }
+  }
+}
+
+// The mean of the four texels around a corner of texels, and where that is.
+double between_texels(const LightPyramid& pyramid, int level, int face, int column, int row,
+                      glm::dvec3& direction) {
+  const int size = pyramid.size >> level;
+  direction = glm::normalize(
+      face_direction(face, {(column + 1.0) * 2.0 / size - 1.0, (row + 1.0) * 2.0 / size - 1.0}));
+  double sum = 0.0;
+  for (int n = 0; n < 4; ++n) {
+    const int texel = (row + n / 2) * size + column + n % 2;
+    sum += double_from_half(pyramid.faces[static_cast<std::size_t>(
+        face)][level_begin(pyramid.size, level) + 4 * static_cast<std::size_t>(texel)]);
+  }
+  return 0.25 * sum;
+}
+
+TEST_CASE("filter_panorama: coarse levels leave of simple light what lobes are fitted to") {
+  const glm::dvec3 slope(0.3, -0.5, 0.2);
+  const auto bend = [](const glm::dvec3& d) { return d.x * d.y + 0.5 * (d.z * d.z - d.x * d.x); };
+  for (const int degree : {1, 2}) {
+    const auto part = [&](const glm::dvec3& d) {
+      return degree == 1 ? glm::dot(slope, d) : bend(d);
+    };
+    const LightPyramid pyramid =
+        filter(make_panorama(128, [&](const glm::dvec3& d) { return 1.0 + part(d); }),
+               options_of(128, false, 5.0 / 12.0));
+    for (const int size : {8, 4}) {
+      double product = 0.0, square = 0.0;
+      for (int face = 0; face < kCubeFaces; ++face) {
+        for (int row = 0; row + 1 < size; ++row) {
+          for (int column = 0; column + 1 < size; ++column) {
+            glm::dvec3 d;
+            const int level = size == 8 ? 4 : 5;
+            const double got = between_texels(pyramid, level, face, column, row, d) - 1.0;
+            product += got * part(d);
+            square += part(d) * part(d);
+          }
+        }
+      }
+      const DrawnHarmonics drawn = drawn_harmonics(4.0 / (size * size));
+      CAPTURE(degree);
+      CAPTURE(size);
+      CHECK(product / square ==
+            doctest::Approx(drawn[static_cast<std::size_t>(degree)]).epsilon(0.04));
     }
   }
 }

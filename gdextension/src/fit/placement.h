@@ -12,7 +12,7 @@ namespace lobelight {
 
 // Where a table's lobes are.
 enum class Placement {
-  automatic,  // as the smaller error of a picture says (fit/picture_error.h)
+  automatic,  // as the smaller error says (fit/picture_error.h, fit/wide_lobes.h)
   em,         // where the likelihood wants them (fit/em.h)
   arc,        // along the highlight (fit/arc.h)
 };

@@ -9,6 +9,8 @@
 // levels the sampler mixes linearly: V is drawn as (1 − f) K(V_l) + f K(4 V_l),
 // V = (1 − f) V_l + f · 4 V_l. All levels have the same kernel K but for its width.
 
+#include <array>
+
 namespace lobelight {
 
 // K at the squared distance t, in variances, and dK/dt: a density in the plane with variance 1 per
@@ -32,6 +34,14 @@ struct PyramidLevels {
   double coarser_share = 0.0;  // f ∈ [0, 1)
 };
 PyramidLevels pyramid_levels(double variance);
+
+// What is left of the light's spherical harmonics of each degree in a lobe of a variance as it is
+// drawn, for variances from (2/256)² to 4. The coarsest levels, whose faces have 8 texels or fewer,
+// are blurred by discs of their own (COARSE_DISCS in the addon's runtime/pyramid/pyramid.gd), not
+// by K.
+inline constexpr int kHarmonicDegrees = 10;
+using DrawnHarmonics = std::array<double, kHarmonicDegrees + 1>;
+DrawnHarmonics drawn_harmonics(double variance);
 
 // A lobe as it is drawn, as a density on the sphere: distances are chords, in which the area of the
 // sphere is that of the plane, so that K's norm holds; what would lie beyond the sphere (chords

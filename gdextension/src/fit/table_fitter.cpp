@@ -12,6 +12,7 @@
 #include "fit/arc.h"
 #include "fit/continuation.h"
 #include "fit/picture_error.h"
+#include "fit/wide_lobes.h"
 
 namespace lobelight {
 
@@ -234,6 +235,9 @@ LobeTable fit_table(const Brdf& brdf, const Recipe& recipe, Progress& progress, 
   } else {
     const Continuation how{brdf, recipe.seed, recipe.threads, recipe.refine, options};
     continue_over_views(how, {}, neighbours_lobes(table), table, em, &used);
+    if (recipe.placement == Placement::automatic && !recipe.refine && is_wide(brdf, table)) {
+      fit_wide_lobes(brdf, table, progress);
+    }
   }
   if (arcs) {
     const PictureError error(brdf, table.views(), recipe.threads, progress);
