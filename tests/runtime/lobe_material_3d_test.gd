@@ -109,6 +109,47 @@ func test_sources_of_a_light_take_another_shader() -> void:
 	assert_str(material.get_shader_code()).not_contains("SOURCES")
 
 
+func test_a_light_of_its_own_may_come_to_have_sources() -> void:
+	# As that of an environment does some frames later.
+	var environment: LobeEnvironment3D = auto_free(LobeEnvironment3D.new())
+	environment.visible = false
+	add_child(environment)
+	var light := LobeLight.make_dark(true)
+	environment.get(&"_live").set(&"light", light)
+	var material := RenderingServer.material_create()
+	var asked := [0]
+	LightRegistry.add_material(material, func() -> void: asked[0] += 1)
+	LightRegistry.set_own_light(material, environment.get_light())
+	await await_idle_frame()
+	var before: int = asked[0]
+	light.sources = PlaceholderTexture2D.new()
+	environment.call(&"_on_drawn", true)
+	await await_idle_frame()
+	assert_int(asked[0]).is_greater(before)
+	assert_array(Array(LightRegistry.get_defines(material))).contains(["SOURCES"])
+	remove_child(environment)
+	LightRegistry.remove_material(material)
+	RenderingServer.free_rid(material)
+
+
+func test_widths_that_cannot_vary_draw_a_line_of_the_material_s_own() -> void:
+	var material := LobeMaterial3D.new()
+	material.metallic = 1.0
+	material.roughness = 0.3
+	material.anisotropy_enabled = true
+	material.anisotropy = 1.0
+	material.roughness_texture = _texture()
+	assert_str(material.get_shader_code()).contains("LOBELIGHT_WIDTHS_PER_PIXEL\n")
+	var tables: LobeTableSet = load("res://addons/lobelight/tables/ggx_8.res").duplicate()
+	var widths := tables.widths.duplicate()
+	widths[1] *= 1.05
+	tables.widths = widths
+	material.table_set = tables
+	assert_str(tables.get_problem()).is_empty()
+	assert_str(material.get_shader_code()).contains("LOBELIGHT_LINE 24\n")
+	assert_str(material.get_shader_code()).not_contains("LOBELIGHT_WIDTHS_PER_PIXEL")
+
+
 func test_levels_of_texels_have_a_variant_of_their_own() -> void:
 	var material := LobeMaterial3D.new()
 	material.metallic = 1.0

@@ -188,6 +188,16 @@ static func update_placement(light: LobeLight, is_drawing := false) -> void:
 	_mutex.unlock()
 
 
+## Sources have come into a light or gone: materials that have it for their own need other shaders.
+static func follow_sources(light: LobeLight) -> void:
+	_mutex.lock()
+	for material: RID in _own:
+		if _own[material] == light and _materials.has(material):
+			_apply(material)
+			_ask_for_variant(material)
+	_mutex.unlock()
+
+
 ## Takes back what an environment or a probe has offered or announced, in all worlds.
 static func withdraw(owner: int) -> void:
 	_mutex.lock()
@@ -250,7 +260,7 @@ static func is_lit_by_other(world: World3D, owner: int) -> bool:
 
 ## Whether materials need other shaders to show the first light of a world, which they get before
 ## the next frame. [param has_sources] says whether it will have [member LobeLight.sources].
-static func needs_variants(world: World3D, is_even: bool, has_sources := false) -> bool:
+static func needs_variants(world: World3D, is_even: bool, has_sources: bool) -> bool:
 	if _is_other_world_lit(world):
 		return true
 	_mutex.lock()

@@ -468,6 +468,7 @@ func _on_drawn(is_other: bool) -> void:
 	_update_placement()
 	if is_other:
 		_check_in()
+		LightRegistry.follow_sources(get_light())
 	if _live != null and _live.light != null:
 		rebuilt.emit()
 	rebuild_finished.emit()
