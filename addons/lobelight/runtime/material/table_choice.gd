@@ -89,6 +89,7 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 		# Before the ready set is loaded, which may not be needed.
 		_turn(surface, false)
 		_choose_line(DEFAULT_BRDF, surface, true)
+		is_per_pixel = _has_line_alone() and surface.varies()
 	var tables: LobeTableSet = null if _has_line_alone() else get_set(surface)
 	is_from_set = surface.table == null and (tables != null or _has_line_alone())
 	if not is_from_set:
@@ -100,7 +101,6 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 		is_isotropic = false
 		brdf = line.brdf
 		lobe_count = line.count
-		is_per_pixel = surface.varies()
 	if table != null or widths_texture != null or is_isotropic or _has_line_alone():
 		_mixed = null
 	_can_follow = is_from_set and table == null and not _has_turned
@@ -209,7 +209,7 @@ func get_narrowest() -> float:
 	return narrowest
 
 
-## Whether lobes come from a table; all others need none.
+## Whether there is a table, alone or besides a line.
 func has_table() -> bool:
 	return not _has_line_alone()
 
@@ -256,11 +256,11 @@ func _choose_from(tables: LobeTableSet, surface: LobeBaseMaterial3D) -> void:
 	brdf = tables.brdf
 	is_isotropic = anisotropy == 0.0
 	var can_vary := WidthsTexture.find_problem(tables.widths, is_isotropic).is_empty()
+	is_per_pixel = surface.varies() and can_vary
 	_choose_line(tables.brdf, surface, can_vary)
 	if _has_line_alone():
 		return
-	if surface.varies() and can_vary:
-		is_per_pixel = true
+	if is_per_pixel:
 		widths_texture = tables.get_widths_texture(is_isotropic)
 	elif _changes > _FIRST_CHANGES and can_vary and is_isotropic:
 		_rows = tables.get_widths_texture(true)
@@ -356,20 +356,21 @@ static func find_line(
 	surface: LobeBaseMaterial3D, with_roughness: float, with_anisotropy: float
 ) -> LineChoice:
 	var found := LineChoice.new()
+	if surface.table != null:
+		return found
 	var tables := surface.table_set
 	var of_brdf := DEFAULT_BRDF
 	if tables != null:
 		var is_usable := tables.get_problem().is_empty() and not tables.is_isotropic()
 		of_brdf = tables.brdf if is_usable else ""
-	if surface.table == null or tables != null:
-		found.choose(
-			of_brdf,
-			with_roughness,
-			with_anisotropy,
-			surface.get_most_lobes(),
-			surface.varies(),
-			surface.varies_in_anisotropy()
-		)
+	found.choose(
+		of_brdf,
+		with_roughness,
+		with_anisotropy,
+		surface.get_most_lobes(),
+		surface.varies(),
+		surface.varies_in_anisotropy()
+	)
 	return found
 
 
