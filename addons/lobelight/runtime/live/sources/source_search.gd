@@ -90,6 +90,9 @@ static func in_views(
 
 ## Has level 0 drawn without the sources, or with them.
 func take_out(takes: bool) -> void:
+	# Asked before each update; a material that is given a shader anew is made anew.
+	if takes == takes_out:
+		return
 	takes_out = takes
 	var parameters: Dictionary[StringName, Variant] = {}
 	if takes:
