@@ -210,6 +210,7 @@ func look_at_material(file: String, material: LobeMaterial3D) -> void:
 		add(OnDemand.ENGINE_LIGHT, file)
 
 
+## A light that is saved.
 func look_at_light(file: String, light: LobeLight) -> void:
 	if light.sources != null:
 		add(OnDemand.SOURCES, file)

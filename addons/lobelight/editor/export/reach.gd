@@ -40,7 +40,7 @@ var _unknown: PackedStringArray = []
 var _declared := false
 # Files that may make materials; those have what a new one has, and what scripts assign.
 var _made_by_script: Dictionary[String, bool] = {}
-# Whether a script may, and so have long widths drawn by tables.
+# Whether a script may switch anisotropy or quality, so that a table draws long widths.
 var _switches_anisotropy := false
 # A script that names what sheens have.
 var _sheen_script := ""

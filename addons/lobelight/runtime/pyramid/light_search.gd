@@ -2,7 +2,7 @@
 @abstract
 extends RefCounted
 ## A search for sources, compact bright lights, in what a pyramid is made from: what a chain asks of
-## live/sources/panorama_search.gd. Probes make none.
+## live/sources/source_search.gd. Probes make none.
 
 ## Rows of its first pass, which takes the most time and may be drawn in parts.
 @abstract func count_rows() -> int
