@@ -164,6 +164,10 @@ TEST_CASE("Panorama::expose caps, and says how much of the light goes") {
   CHECK(absurd.expose(0.0) == 1);
   CHECK(absurd.warnings.at(0).find(
             "more than 99.9 % of the light is lost; no Exposure keeps all") != std::string::npos);
+  // Beyond what single precision holds, too.
+  Panorama beyond{1, 1, {1e30f, 1e30f, 1e30f}};
+  CHECK(beyond.expose(60.0) == 1);
+  CHECK(beyond.rgb[0] == kLargestHalf);
 }
 
 TEST_CASE("check_proportions warns of what is hardly a panorama") {

@@ -135,7 +135,11 @@ std::size_t Panorama::sanitise() {
 void Panorama::brighten(double exposure) {
   if (exposure == 0.0) return;
   const double factor = std::exp2(exposure);
-  for (float& value : rgb) value = static_cast<float>(factor * static_cast<double>(value));
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  for (float& value : rgb) {
+    if (!std::isfinite(value)) continue;
+    value = static_cast<float>(std::min(factor * static_cast<double>(value), kLargest));
+  }
 }
 
 std::size_t Panorama::warn_of_limit(double exposure) {

@@ -46,7 +46,7 @@ struct Panorama {
   // were capped, and warns of the light that goes.
   std::size_t expose(double exposure);
 
-  // Multiplies a sanitised panorama by 2^`exposure`, without a limit.
+  // Multiplies a sanitised panorama by 2^`exposure`; finite values stay finite.
   void brighten(double exposure);
 
   // How many texels are brighter than 65504, and for them a warning: what light is lost where that
