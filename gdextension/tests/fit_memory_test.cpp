@@ -66,6 +66,25 @@ TEST_CASE("Looking at lobes along the highlight stays within the formula too") {
   }
 }
 
+TEST_CASE("Least squares stay within the formula too") {
+  for (const int lobes : {3, 32}) {
+    for (const int views : {2, 128}) {
+      Recipe recipe;
+      recipe.brdf = "ggx";
+      recipe.alpha = {0.5, 0.5};
+      recipe.views = {views, 1};
+      recipe.lobes = lobes;
+      recipe.threads = 1;
+      FitOptions options;
+      options.nodes_per_axis = 16;
+      options.em.max_iterations = 5;
+      CAPTURE(lobes);
+      CAPTURE(views);
+      CHECK(measured_peak(recipe, options) <= fit_memory_bound(recipe, options));
+    }
+  }
+}
+
 TEST_CASE("Many iterations and many views stay within the formula too") {
   Recipe recipe;
   recipe.alpha = {0.2, 0.2};

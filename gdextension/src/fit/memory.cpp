@@ -21,8 +21,14 @@ std::size_t fit_memory_bound(const Recipe& recipe, const FitOptions& options) {
       looks_at_arcs(recipe, recipe.brdf, recipe.alpha)
           ? 64 * views * lobes + PictureError::memory_bound(grid) + threads * 32 * 64 * 64
           : 0;
-  return 64 * 1024 + arcs + views * (32 * lobes + 16) +
-         threads * (96 * nodes + 4096 * (lobes + 1) + 32 * (iterations + 1));
+  const std::size_t em = threads * (96 * nodes + 4096 * (lobes + 1) + 32 * (iterations + 1));
+  // One more table, each view's coefficients, and a slice before and after nodes are left out. What
+  // measurements are as wide as is not known yet.
+  const bool may_be_wide = recipe.placement == Placement::automatic &&
+                           recipe.method == FitMethod::continuation && !recipe.refine &&
+                           recipe.alpha.x == recipe.alpha.y;
+  const std::size_t squares = may_be_wide ? views * (32 * lobes + 640) + 2 * 32 * 64 * 64 : 0;
+  return 64 * 1024 + arcs + views * (32 * lobes + 16) + std::max(em, squares);
 }
 
 }  // namespace lobelight
