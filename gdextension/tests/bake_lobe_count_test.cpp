@@ -60,8 +60,9 @@ TEST_CASE("the count is the first that reaches the target") {
     CHECK((trial.psnr >= 33.0) == (&trial == &found.trials.back()));
   }
   CHECK(found.trials.back().lobes == found.table.lobes());
-  // It is the table that the recipe gives with this count.
+  // It is the table that the recipe gives with this count and placement.
   Recipe recipe = small_recipe();
+  recipe.placement = found.report.is_by_squares ? Placement::automatic : Placement::em;
   recipe.lobes = found.table.lobes();
   Progress progress;
   CHECK(fit_table(Ggx({0.3, 0.3}), recipe, progress, nullptr).to_rgba16f() ==
@@ -78,6 +79,18 @@ TEST_CASE("the count is the first that reaches the target") {
             .find("The target of 46 dB is out of reach with up to 2 lobes; the best are 2 with ") ==
         0);
   }
+}
+
+TEST_CASE("a width that may be fitted by least squares takes no more lobes than EM's") {
+  // In exact light, EM's are the better ones here.
+  LobeTarget target;
+  target.psnr = 34.0;
+  Recipe recipe = small_recipe();
+  recipe.placement = Placement::em;
+  Progress progress;
+  const LobeCount likely = find_lobe_count(target, recipe, Ggx({0.25, 0.25}), progress, coarse());
+  const LobeCount found = count(target, Ggx({0.25, 0.25}));
+  CHECK(found.table.lobes() <= likely.table.lobes());
 }
 
 TEST_CASE("every environment has to be reached, of any size") {

@@ -81,6 +81,22 @@ TEST_CASE("fit_wide_lobes: lobes can be stored, stay small and are the same each
   }
 }
 
+TEST_CASE("fit_wide_lobes: reports tell of it, and recipes can refuse it") {
+  Recipe recipe;
+  recipe.brdf = "ggx";
+  recipe.alpha = {0.5, 0.5};
+  Progress progress;
+  FitReport report;
+  fit_table(recipe, progress, &report);
+  CHECK(report.is_by_squares);
+  recipe.placement = Placement::em;
+  const LobeTable table = fit_table(recipe, progress, &report);
+  CHECK_FALSE(report.is_by_squares);
+  for (int t = 0; t < table.views().x; ++t) {
+    for (const Lobe& lobe : table.mixture_at_view(t, 0)) CHECK(lobe.weight >= 0.0);
+  }
+}
+
 TEST_CASE("is_wide: round materials of one colour from a width on") {
   const LobeTable round({0.5, 0.5}, 8, {16, 1});
   CHECK(is_wide(*make_brdf("ggx", {0.5, 0.5}), round));

@@ -63,7 +63,10 @@ BakedTable bake_table(const TableRequest& request, Progress& progress,
   BakedTable baked{
       std::string(brdf->name()), recipe, std::move(table), std::move(report), {}, psnr, {}};
   baked.recipe.lobes = baked.table.lobes();
-  baked.recipe.placement = baked.report.arc_reach > 0.0 ? Placement::arc : Placement::em;
+  // What makes this table again.
+  baked.recipe.placement = baked.report.arc_reach > 0.0 ? Placement::arc
+                           : baked.report.is_by_squares ? Placement::automatic
+                                                        : Placement::em;
   baked.recipe.reach = baked.report.arc_reach;
   if (!recipe.refine) baked.errors = view_errors(baked.table, *brdf, recipe.threads, errors);
   if (const auto* measured = dynamic_cast<const MeasuredBrdf*>(brdf.get())) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fit/wide_lobes.h"
 #include "image/synthetic_panorama.h"
 #include "reference/reduced_panorama.h"
 #include "reference/sphere_renderer.h"
@@ -57,6 +58,14 @@ std::vector<Scene> make_scenes(const LobeTarget& target, const Brdf& brdf,
   return scenes;
 }
 
+// The placements that are tried in turn: lobes by least squares suit what is drawn in their place,
+// not the exact light that they are judged by here, in which EM's may be the better ones.
+std::vector<Placement> placements_of(const Recipe& recipe, const Brdf& brdf, int lobes) {
+  const LobeTable grid(brdf.alpha(), lobes, resolve_views(recipe, brdf.is_isotropic()));
+  if (recipe.placement != Placement::automatic || !is_wide(brdf, grid)) return {recipe.placement};
+  return {Placement::automatic, Placement::em};
+}
+
 // The lowest PSNR of a table's pictures.
 double worst_psnr(const LobeTable& table, const std::vector<Scene>& scenes,
                   const SphereOptions& options, Progress& progress) {
@@ -104,17 +113,24 @@ LobeCount find_lobe_count(const LobeTarget& target, const Recipe& recipe, const 
   for (const int lobes : kCounts) {
     if (lobes > target.max_lobes) break;
     Progress trial(progress, (1.0 - kReferenceShare) * lobes / all_lobes);
-    Progress fit(trial, 1.0 - kPictureShare);
-    Progress pictures(trial, kPictureShare);
-    Recipe tried = recipe;
-    tried.lobes = lobes;
-    FitReport report;
-    LobeTable table = fit_table(brdf, tried, fit, &report, options.fit);
-    trials.push_back({lobes, worst_psnr(table, scenes, sphere, pictures)});
-    if (trials.back().psnr > best.psnr) best = trials.back();
-    if (trials.back().psnr >= target.psnr) {
-      progress.set(1.0);
-      return {std::move(table), std::move(report), std::move(trials)};
+    trials.push_back({lobes, 0.0});
+    const std::vector<Placement> placements = placements_of(recipe, brdf, lobes);
+    for (const Placement placement : placements) {
+      Progress part(trial, 1.0 / static_cast<double>(placements.size()));
+      Progress fit(part, 1.0 - kPictureShare);
+      Progress pictures(part, kPictureShare);
+      Recipe tried = recipe;
+      tried.lobes = lobes;
+      tried.placement = placement;
+      FitReport report;
+      LobeTable table = fit_table(brdf, tried, fit, &report, options.fit);
+      const double psnr = worst_psnr(table, scenes, sphere, pictures);
+      trials.back().psnr = std::max(trials.back().psnr, psnr);
+      if (psnr > best.psnr) best = trials.back();
+      if (psnr >= target.psnr) {
+        progress.set(1.0);
+        return {std::move(table), std::move(report), std::move(trials)};
+      }
     }
   }
   char text[160];

@@ -46,7 +46,8 @@ void validate(const LobeTarget& target);
 // Fits tables of 1, 2, 3, 4, 6, 8, 12, 16, 24 and 32 lobes, as far as max_lobes goes, until one
 // reaches the target in every environment; the recipe's own count stands for nothing. A table's
 // error is that of a sphere as ./dev compare measures it, each lobe being given the light under it
-// exactly: what the table loses, not what the run time's pyramid adds. Throws std::runtime_error
+// exactly: what the table loses, not what the run time's pyramid adds. Where lobes may be fitted by
+// least squares (fit/wide_lobes.h), EM's are tried as well. Throws std::runtime_error
 // with one sentence where max_lobes do not do, ImageError and Cancelled.
 LobeCount find_lobe_count(const LobeTarget& target, const Recipe& recipe, const Brdf& brdf,
                           Progress& progress, const LobeCountOptions& options = {});

@@ -33,8 +33,8 @@ struct Recipe {
   // Gaussians (fit/refinement.h).
   bool refine = false;
   // Where the lobes are, and how far they reach along the highlight where they are strung along it,
-  // in slopes over alpha; 0: as the error of a picture says (fit/placement.h). Independent fits and
-  // measurements are EM's.
+  // in slopes over alpha; 0: as the error of a picture says (fit/placement.h). Independent fits are
+  // EM's.
   Placement placement = Placement::automatic;
   double reach = 0.0;
   std::uint64_t seed = 0;

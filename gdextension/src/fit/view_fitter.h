@@ -17,10 +17,12 @@ struct FitReport {
   double seconds = 0.0;
   std::vector<int> iterations;
   // Final, mean over the slice's mass in nats: of the Gaussians or, refined, of what is drawn.
+  // Lobes by least squares may be negative and have none: it is that of the lobes before.
   std::vector<double> log_likelihood;
   std::vector<double> first_view_curve;  // log-likelihood of view (0, 0), iteration by iteration
   // Of lobes along the highlight (fit/placement.h), which take no iterations: how far they reach.
   double arc_reach = 0.0;
+  bool is_by_squares = false;  // whether the lobes are those of fit/wide_lobes.h
 };
 
 // What a recipe does not say, with the values that every baked table uses; tests and benchmarks

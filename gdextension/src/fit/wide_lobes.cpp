@@ -37,7 +37,7 @@ constexpr int kSteps = 30;
 constexpr int kStarts = 4;
 
 // What the coefficients of degree l count.
-double degree_weight(int degree) { return degree == 0 ? 2.0 : 1.0 / (degree + 0.5); }
+double degree_weight(int degree) { return 1.0 / (degree + 0.5); }
 
 // The real spherical harmonics that are even in y, times degree_weight(), at a unit vector.
 Coefficients harmonics(const glm::dvec3& d) {
@@ -285,12 +285,12 @@ bool is_wide(const Brdf& brdf, const LobeTable& table) {
          std::min(brdf.alpha().x, brdf.alpha().y) >= kLeastWideWidth;
 }
 
-void fit_wide_lobes(const Brdf& brdf, LobeTable& table, const Progress& progress) {
+bool fit_wide_lobes(const Brdf& brdf, LobeTable& table, const Progress& progress) {
   const int views = table.views().x;
   std::vector<WideSlice> slices;
   for (int t = 0; t < views; ++t) {
     slices.push_back(wide_slice(brdf, table.view(t, 0)));
-    if (!(slices.back().albedo > 0.0)) return;
+    if (!(slices.back().albedo > 0.0)) return false;
     progress.throw_if_cancelled();
   }
   const std::size_t lobes = std::min(static_cast<std::size_t>(table.lobes()), kMostLobes);
@@ -336,9 +336,9 @@ void fit_wide_lobes(const Brdf& brdf, LobeTable& table, const Progress& progress
       store(t, x);
     }
   }
-  if (table_error(brdf, result, progress) < table_error(brdf, table, progress)) {
-    table = std::move(result);
-  }
+  if (!(table_error(brdf, result, progress) < table_error(brdf, table, progress))) return false;
+  table = std::move(result);
+  return true;
 }
 
 }  // namespace lobelight

@@ -23,7 +23,7 @@ inline constexpr double kLeastWideWidth = 0.25;
 bool is_wide(const Brdf& brdf, const LobeTable& table);
 
 // Fits the lobes of all views again, each view from its neighbour's, and keeps them where the error
-// between the views is smaller as well. is_wide() holds. Throws Cancelled.
-void fit_wide_lobes(const Brdf& brdf, LobeTable& table, const Progress& progress);
+// between the views is smaller as well; returns whether it is. is_wide() holds. Throws Cancelled.
+bool fit_wide_lobes(const Brdf& brdf, LobeTable& table, const Progress& progress);
 
 }  // namespace lobelight
