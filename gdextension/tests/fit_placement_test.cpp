@@ -214,6 +214,9 @@ TEST_CASE("Placements that cannot be are refused by a sentence") {
   recipe = long_recipe("ward", Placement::arc);
   recipe.method = FitMethod::independent;
   CHECK(message(recipe) == "placement is \"arc\", which goes with method \"continuation\" only.");
+  recipe = long_recipe("ward", Placement::arc);
+  recipe.refine = true;
+  CHECK(message(recipe) == "placement is \"arc\", whose lobes cannot be refined.");
   recipe = long_recipe("ward", Placement::em);
   recipe.reach = 2.0;
   CHECK(message(recipe) == "reach is 2, but placement \"em\" has none.");

@@ -166,6 +166,10 @@ void validate_counts(const Recipe& recipe) {
     sentence << "placement is \"arc\", which goes with method \"continuation\" only.";
     refuse(sentence);
   }
+  if (recipe.placement == Placement::arc && recipe.refine) {
+    sentence << "placement is \"arc\", whose lobes cannot be refined.";
+    refuse(sentence);
+  }
   const glm::ivec2 views = resolve_views(recipe, true);
   if (views.x < 2 || views.x > kMaxViews || views.y < 1 || views.y > kMaxViews) {
     sentence << "views is (" << recipe.views.x << ", " << recipe.views.y << "), but needs 2 to "
