@@ -20,7 +20,7 @@ constexpr double kRotation = 0.5;  // other nodes than those of seed 0
 
 // Points of a Kronecker sequence in several dimensions (Roberts 2018): `dimension` from 0 to 5.
 double kronecker(int n, int dimension) {
-  // Powers of 1/x, x^7 = x + 1.
+  // Powers of a number near 1/x, x^7 = x + 1.
   constexpr double kStep = 0.89789110750;
   double step = 1.0;
   for (int i = 0; i <= dimension; ++i) step *= kStep;

@@ -70,8 +70,6 @@ bool arcs_may_win(std::string_view brdf, const glm::dvec2& alpha) {
   return has_arc(brdf, alpha) && is_long(alpha);
 }
 
-bool arcs_may_win(const Brdf& brdf) { return arcs_may_win(brdf.name(), brdf.alpha()); }
-
 ArcTable fit_arcs(const Brdf& brdf, const LobeTable& model, double reach, const PictureError& error,
                   const PictureErrors* others, int threads, const Progress& progress) {
   const bool ggx = brdf.name() == "ggx";

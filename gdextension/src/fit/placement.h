@@ -26,7 +26,6 @@ constexpr double kLeastReach = 0.5;
 constexpr double kGreatestReach = 32.0;
 
 // Whether `automatic` looks at arcs at all: rounder highlights are always the better served by EM.
-bool arcs_may_win(const Brdf& brdf);
 bool arcs_may_win(std::string_view brdf, const glm::dvec2& alpha);
 
 struct ArcTable {
