@@ -6,7 +6,7 @@ extends SceneTree
 ## and where wanted "timing_size", "tolerant" and
 ## "stage", the properties of [ComparisonStage] that differ from the usual: {"filter",
 ## "pyramid_size", "table_views", "toral_coverage", "toral_views", "fis_bias", "light_form",
-## "max_sources"}. Those of one map and
+## "max_sources", "fis_form"}. Those of one map and
 ## stage follow one another best, since a map's pyramid is kept while the next comparison needs it;
 ## tables are kept throughout. After each, a line "compared INDEX" goes to standard output.
 

@@ -1,4 +1,4 @@
-"""README.md of `./dev accuracy`: tables of the three parts, the goals and where they are missed."""
+"""README.md of `./dev accuracy`: tables of the four parts, the goals and where they are missed."""
 
 import math
 

@@ -8,6 +8,8 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
        ./dev compare --room ROOM.json --brdf B --alpha AX,AY --methods M,M,… --out DIR [OPTIONS]
 
 --methods       gmm<lobes> (gmm1, gmm2, gmm4, gmm8 …); gmm<lobes>r: with refined lobes
+                line4 line8 … line40: so many lobes along the highlight, computed without a table
+                auto: what a material of these widths draws by itself, of ready tables and without
                 fis8 fis16 fis40: filtered importance sampling on 2x2 means, in the best form (--fis); fis40g: on the
                 pyramid of gmm
                 toral8 toral16: the thesis as written
@@ -20,9 +22,9 @@ usage: ./dev compare --env FILE --brdf B --alpha AX,AY --methods M,M,… --out D
                 reference: with itself
 --size N        pixels along the side (default 256)
 --renderer R    mobile (default), gl_compatibility or forward_plus
---filter F      of the pyramid of gmm, fis40g, allfreq, asg and closed8: disc (default), gaussian, binomial or box
---light L       of gmm: live (default), drawn on the GPU while the program runs, or baked, as it is imported and saved
---max-sources N suns and lamps that are taken out of the light of gmm (default 4); 0 leaves all in the map
+--filter F      of the pyramid of gmm, line, auto, fis40g, allfreq, asg and closed8: disc (default), gaussian, binomial or box
+--light L       of gmm, line and auto: live (default), drawn on the GPU while the program runs, or baked, as it is imported and saved
+--max-sources N suns and lamps that are taken out of that light (default 4); 0 leaves all in the map
 --samples N     of the reference, a pixel
 --timing-rounds N   GPU times of every method, in turns (default 15); 0 measures none
 --timing-size N pixels along the side where times are measured (default 256)

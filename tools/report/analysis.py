@@ -115,8 +115,8 @@ def verdict(entries, place):
     """{"place", "points", "front": [method], "best" and "best_by_fetches": [(budget, Point | None)],
     "rivals": [(rival, ours)] on the front}.
 
-    A rival is on the list where nothing of ours is as accurate in its time; `ours` is our most accurate one within that
-    time, or None.
+    A rival is on the list where it leads by cases.LEAST_LEAD or more over all of ours within its time; `ours` is our most
+    accurate one within that time, or None.
     """
     found = points(entries, place)
     front = pareto(found)
