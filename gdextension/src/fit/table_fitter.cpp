@@ -66,11 +66,10 @@ void fit_independently(const Brdf& brdf, const Recipe& recipe, const FitOptions&
 
 // Of the progress of a fit that also looks at arcs.
 constexpr double kArcShare = 0.1;
-// Arcs take the place of EM's lobes where they are better under both lights, and clearly under one:
-// what errors say of other lights is no more exact.
+// Arcs take the place of EM's lobes where they are clearly better under both lights: what errors
+// say of other lights is no more exact.
 bool is_clearly_better(const PictureErrors& arcs, const PictureErrors& em) {
-  return arcs.lamps < em.lamps && arcs.windows < em.windows &&
-         arcs.lamps * arcs.windows < 0.9 * em.lamps * em.windows;
+  return arcs.lamps < 0.9 * em.lamps && arcs.windows < 0.9 * em.windows;
 }
 
 // A table with the albedos of the views as weights, for arcs alone.

@@ -32,7 +32,7 @@ constexpr int kLineParts = 16;
 constexpr std::size_t kBetweenChecks = 4096;
 constexpr double kMostDeviation = 1.2 * kDegree;
 constexpr double kLeastFilling = 0.25;
-constexpr double kLeastShare = 0.005;
+constexpr double kLeastShare = 0.02;
 
 class SourceFinder {
  public:
