@@ -36,9 +36,9 @@ struct CompactSource {
 //    most 1.2° (without the bilinear filter's) and, where the texels resolve it, its energy at
 //    least a quarter of what a Gaussian of that deviation and height has: a core in a halo has
 //    less, and C rises until the core alone sticks out. The halo can be a source of its own.
-// 4. It pays if it has at least 2 % of the light that there is with it: a lobe of a deviation of 0.2
-//    radians then shows it as bright as the mean of the whole map. Less of it gains less than it
-//    costs: a pixel spends on a source what it spends on ten lobes.
+// 4. It pays if it has at least 2 % of the light that there is with it: a lobe of a deviation of
+//    0.2 radians then shows it as bright as the mean of the whole map. Less of it gains less than
+//    it costs: a pixel spends on a source what it spends on ten lobes.
 std::vector<CompactSource> take_sources(Panorama& panorama, int most, int threads,
                                         Progress& progress);
 
