@@ -54,6 +54,7 @@ func _filter(environment: LobeEnvironment3D) -> Variant:
 			)
 		request = PanoramaFilter.make_request(image, environment.size, kernel)
 	request["max_sources"] = environment.max_sources
+	var file := environment.panorama.resource_path
 	_task = NativeLibrary.create(&"LobeLightFilter")
 	if _task.call(&"start", request):
 		var tree := Engine.get_main_loop() as SceneTree
@@ -64,6 +65,8 @@ func _filter(environment: LobeEnvironment3D) -> Variant:
 	_task = null
 	if result.is_empty():
 		return error if error else "The bake was cancelled."
+	for warning: String in result["warnings"]:
+		push_warning("%s: %s." % [file if file else "The panorama", warning])
 	return PanoramaFilter.make_light(request, result)
 
 
