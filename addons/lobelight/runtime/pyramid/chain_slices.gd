@@ -64,7 +64,8 @@ static func spread(
 		var row := 0
 		while row < rows:
 			var count := mini(floori(minf(left / row_cost, rows)), rows - row)
-			if count == 0 and not _is_empty(slices.back()):
+			# What is left may be less than nothing, after a row or a pass that has more than it may.
+			if count <= 0 and not _is_empty(slices.back()):
 				slices.append(Slice.new())
 				left = most
 				continue
