@@ -187,8 +187,9 @@ var size := 0:
 		update_configuration_warnings()
 
 ## How many compact bright lights, suns and lamps, are taken out of the light at most and drawn as
-## what they are: sharp, without fireflies, and with light that half floats do not hold. Materials
-## look none of them up where the light has none.
+## what they are: sharp, without fireflies, and with light that half floats do not hold. Live light
+## is drawn whole at first, and without them some frames later. Materials look none of them up where
+## the light has none.
 @export_range(0, 4) var max_sources := LightSettings.MAX_SOURCES:
 	set(value):
 		max_sources = clampi(value, 0, LightSettings.MAX_SOURCES)
