@@ -27,7 +27,7 @@ std::size_t fit_memory_bound(const Recipe& recipe, const FitOptions& options) {
   const bool may_be_wide = recipe.placement == Placement::automatic &&
                            recipe.method == FitMethod::continuation && !recipe.refine &&
                            recipe.alpha.x == recipe.alpha.y;
-  const std::size_t squares = may_be_wide ? views * (32 * lobes + 640) + 2 * 32 * 64 * 64 : 0;
+  const std::size_t squares = may_be_wide ? views * (32 * lobes + 640) + 64 * nodes : 0;
   return 64 * 1024 + arcs + views * (32 * lobes + 16) + std::max(em, squares);
 }
 

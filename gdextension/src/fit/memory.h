@@ -16,8 +16,8 @@ namespace lobelight {
 // memory is a block's columns and what the acceleration remembers, per iteration the likelihood.
 // Where lobes along the highlight are looked at as well (fit/placement.h), two more tables, 64
 // T·P·K, and what they are compared by, PictureError::memory_bound() and 128 KiB a thread, are
-// added. Least squares (fit/wide_lobes.h) come after EM, and take 256 KiB and T·P (32 K + 640) in
-// place of its part. A measured BRDF's own data come on top, once. Threads' stacks are not counted.
+// added. Least squares (fit/wide_lobes.h) come after EM, and take 64 N + T·P (32 K + 640) in place
+// of its part. A measured BRDF's own data come on top, once. Threads' stacks are not counted.
 std::size_t fit_memory_bound(const Recipe& recipe, const FitOptions& options = {});
 
 }  // namespace lobelight

@@ -239,7 +239,8 @@ LobeTable fit_table(const Brdf& brdf, const Recipe& recipe, Progress& progress, 
     const Continuation how{brdf, recipe.seed, recipe.threads, recipe.refine, options};
     continue_over_views(how, {}, neighbours_lobes(table), table, em, &used);
     if (recipe.placement == Placement::automatic && !recipe.refine && is_wide(brdf, table)) {
-      used.is_by_squares = fit_wide_lobes(brdf, table, progress);
+      const SliceNodes nodes{options.nodes_per_axis, seed_rotation(recipe.seed)};
+      used.is_by_squares = fit_wide_lobes(brdf, nodes, table, progress);
     }
   }
   if (arcs) {

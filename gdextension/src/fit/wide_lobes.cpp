@@ -239,8 +239,8 @@ struct WideSlice {
   double albedo = 0.0;
 };
 
-WideSlice wide_slice(const Brdf& brdf, const glm::dvec3& o) {
-  const Slice slice = usable_nodes(sample_slice(brdf, o));
+WideSlice wide_slice(const Brdf& brdf, const SliceNodes& nodes, const glm::dvec3& o) {
+  const Slice slice = usable_nodes(sample_slice(brdf, o, nodes.per_axis, nodes.rotation));
   WideSlice result;
   result.albedo = slice.albedo;
   if (slice.albedo > 0.0) result.wanted = slice_harmonics(slice);
@@ -263,13 +263,14 @@ Mixture stored_lobes(const Parameters& x, const std::vector<double>& weights, do
 }
 
 // The error of a table at its views and between them.
-double table_error(const Brdf& brdf, const LobeTable& table, const Progress& progress) {
+double table_error(const Brdf& brdf, const SliceNodes& nodes, const LobeTable& table,
+                   const Progress& progress) {
   double sum = 0.0;
   for (int n = 0; n < 2 * table.views().x - 1; ++n) {
     progress.throw_if_cancelled();
     const double elevation = table.elevation(0.5 * n);
     const glm::dvec3 o(std::sin(elevation), 0.0, std::cos(elevation));
-    const WideSlice slice = wide_slice(brdf, o);
+    const WideSlice slice = wide_slice(brdf, nodes, o);
     if (slice.albedo > 0.0) {
       sum += std::sin(2.0 * elevation) *
              squared_error(slice.wanted, table.interpolate(o), slice.albedo);
@@ -285,11 +286,12 @@ bool is_wide(const Brdf& brdf, const LobeTable& table) {
          std::min(brdf.alpha().x, brdf.alpha().y) >= kLeastWideWidth;
 }
 
-bool fit_wide_lobes(const Brdf& brdf, LobeTable& table, const Progress& progress) {
+bool fit_wide_lobes(const Brdf& brdf, const SliceNodes& nodes, LobeTable& table,
+                    const Progress& progress) {
   const int views = table.views().x;
   std::vector<WideSlice> slices;
   for (int t = 0; t < views; ++t) {
-    slices.push_back(wide_slice(brdf, table.view(t, 0)));
+    slices.push_back(wide_slice(brdf, nodes, table.view(t, 0)));
     if (!(slices.back().albedo > 0.0)) return false;
     progress.throw_if_cancelled();
   }
@@ -336,7 +338,8 @@ bool fit_wide_lobes(const Brdf& brdf, LobeTable& table, const Progress& progress
       store(t, x);
     }
   }
-  if (!(table_error(brdf, result, progress) < table_error(brdf, table, progress))) return false;
+  const double error = table_error(brdf, nodes, result, progress);
+  if (!(error < table_error(brdf, nodes, table, progress))) return false;
   table = std::move(result);
   return true;
 }

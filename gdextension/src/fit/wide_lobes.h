@@ -22,8 +22,15 @@ inline constexpr double kLeastWideWidth = 0.25;
 // Whether lobes may be fitted so: the material is isotropic, of one colour and wide.
 bool is_wide(const Brdf& brdf, const LobeTable& table);
 
+// As for sample_slice().
+struct SliceNodes {
+  int per_axis;
+  double rotation;
+};
+
 // Fits the lobes of all views again, each view from its neighbour's, and keeps them where the error
 // between the views is smaller as well; returns whether it is. is_wide() holds. Throws Cancelled.
-bool fit_wide_lobes(const Brdf& brdf, LobeTable& table, const Progress& progress);
+bool fit_wide_lobes(const Brdf& brdf, const SliceNodes& nodes, LobeTable& table,
+                    const Progress& progress);
 
 }  // namespace lobelight
