@@ -95,6 +95,7 @@ std::size_t memory_bound(const SetRecipe& recipe) {
   Recipe table;
   table.lobes = recipe.lobes;
   table.views = layout.views(0);
+  table.placement = Placement::em;
   const std::size_t threads =
       std::min(count(layout.tables()), count(resolve_threads(recipe.threads)));
   table.threads = static_cast<int>(threads);
