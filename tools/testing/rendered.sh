@@ -23,6 +23,10 @@ MOBILE_LEAVES_OUT=(
   comparators_prefiltered_test:test_bent_normal_of_the_split_sum
   comparators_prefiltered_test:test_major_axis_lies_between_the_extrema_of_the_ellipse
   comparators_prefiltered_test:test_major_axis_follows_a_long_highlight
+
+  # The demo's own scene: Mobile draws every environment by every method.
+  demo_pictures_test:test_the_ball_shows_the_room_that_it_is_in
+  demo_pictures_test:test_sliders_change_what_they_are_for
 )
 
 # What is left to Mobile and Compatibility. Everything else, and every new suite, runs in Forward+ too.
@@ -42,6 +46,8 @@ FORWARD_PLUS_LEAVES_OUT=(
   material_surface_test:test_dielectrics_reflect_as_specular_says
   material_surface_test:test_diffuse_light_is_the_cosines material_surface_test:test_diffuse_light_shows_no_star
   material_widths_test
+  line_test:test_no_step_is_seen line_test:test_white_furnace
+  sources_test
   occlusion_test:test_what_is_shut_is_black occlusion_test:test_reflections_behind_walls_and_in_grooves
   occlusion_test:test_the_surface_hides_what_is_below_its_horizon
   occlusion_test:test_plastic_reflects_and_scatters_what_it_sees
