@@ -111,13 +111,6 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual((rival.method, ours.method), ("fis40", "gmm16"))
         self.assertEqual(dict(verdict["best"])[float("inf")].method, "fis40")
 
-    def test_a_lead_that_cannot_be_seen_is_none(self):
-        for lead, winner in ((0.9, "gmm16"), (1.1, "fis40")):
-            psnr = 41.0 + lead * cases.LEAST_LEAD
-            (verdict,) = analysis.verdicts([entry(ISOTROPIC, {**USUAL, "fis40": (psnr, 40, 3.3)})])
-            self.assertEqual(dict(verdict["best"])[float("inf")].method, winner)
-            self.assertEqual("fis40" in [rival.method for rival, _ in verdict["rivals"]], winner == "fis40")
-
     def test_budgets_of_fetches(self):
         """Whatever it takes: fewer fetches are within more; what is not drawn by fetches takes no part."""
         (verdict,) = analysis.verdicts([entry(ISOTROPIC, {**USUAL, "line8": (40.5, 8, 9.0)})])

@@ -99,13 +99,6 @@ def best_within(found, budget, cost=lambda point: point.time):
     return max(affordable, key=lambda p: (p.psnr, -cost(p)), default=None)
 
 
-def leader(found, budget, cost=lambda point: point.time):
-    """The best within a budget; ours where the rival's lead is too small to be seen (cases.LEAST_LEAD)."""
-    best = best_within(found, budget, cost)
-    own = best_within([p for p in found if cases.is_ours(p.method)], budget, cost)
-    return own if own and best.psnr - own.psnr < cases.LEAST_LEAD else best
-
-
 def fetches_of(point):
     """None for what fetches nothing that is counted."""
     return point.fetches or None
@@ -115,19 +108,19 @@ def verdict(entries, place):
     """{"place", "points", "front": [method], "best" and "best_by_fetches": [(budget, Point | None)],
     "rivals": [(rival, ours)] on the front}.
 
-    A rival is on the list where it leads by cases.LEAST_LEAD or more over all of ours within its time; `ours` is our most
-    accurate one within that time, or None.
+    A rival is on the list where nothing of ours is as accurate in its time; `ours` is our most accurate one within that
+    time, or None.
     """
     found = points(entries, place)
     front = pareto(found)
     own = [p for p in found if cases.is_ours(p.method)]
-    rivals = [(p, best_within(own, p.time)) for p in front if not cases.is_ours(leader(found, p.time).method)]
+    rivals = [(p, best_within(own, p.time)) for p in front if not cases.is_ours(p.method)]
     return {
         "place": place,
         "points": found,
         "front": [p.method for p in front],
-        "best": [(budget, leader(found, budget)) for budget in cases.BUDGETS],
-        "best_by_fetches": [(budget, leader(found, budget, fetches_of)) for budget in cases.FETCH_BUDGETS],
+        "best": [(budget, best_within(found, budget)) for budget in cases.BUDGETS],
+        "best_by_fetches": [(budget, best_within(found, budget, fetches_of)) for budget in cases.FETCH_BUDGETS],
         "rivals": rivals,
     }
 

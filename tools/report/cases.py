@@ -70,9 +70,6 @@ ANISOTROPIC_VIEWS = ((4, 2), (8, 4), (16, 8), (32, 16))
 BUDGETS = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, float("inf"))
 # Fetches of the environment.
 FETCH_BUDGETS = (1, 2, 3, 4, 8, 16, 24, 32, 40)
-# dB by which the best rival has to be better than our best within a budget: less is not seen, and other samples of the
-# reference would move it.
-LEAST_LEAD = 0.05
 
 SOFTWARE, GPU = "software", "gpu"
 

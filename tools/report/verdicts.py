@@ -132,7 +132,7 @@ def budgets(page):
     page.heading("The best method within a time")
     page.text(
         f"The most accurate method that takes at most so many times the GPU time of `{cases.BASELINE}`, and its PSNR in dB;"
-        f" rivals are **bold**. A rival's lead below {cases.LEAST_LEAD:g} dB, which other samples of the reference would turn, is none."
+        " rivals are **bold**."
     )
     budget_tables(page, "best", analysis.budget_name)
 

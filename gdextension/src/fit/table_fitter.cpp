@@ -115,7 +115,7 @@ void report_arcs(const Brdf& brdf, const Recipe& recipe, const FitOptions& optio
 bool looks_at_arcs(const Recipe& recipe, std::string_view brdf, const glm::dvec2& alpha) {
   if (recipe.placement == Placement::arc) return true;
   return recipe.placement == Placement::automatic && recipe.method == FitMethod::continuation &&
-         arcs_may_win(brdf, alpha);
+         !recipe.refine && arcs_may_win(brdf, alpha);
 }
 
 std::string_view to_string(FitMethod method) {
