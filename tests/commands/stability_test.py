@@ -61,6 +61,8 @@ BESIDE_THE_ENGINE = {
     "coordinates.gdshaderinc",
     "detail.gdshaderinc",
     "engine_light.gdshaderinc",
+    # Its numbers are those of the engine's antialiasing, drawn in tests/render/line_shift_test.gd.
+    "line_shift.gdshaderinc",
     # Compared with LobeTableSet.table_at() by tests/render/moving_widths_test.gd.
     "mix_tables.gdshader",
     "msdf.gdshaderinc",
