@@ -21,7 +21,7 @@ const KEPT := [
 	["worn", "texture"],
 ]
 ## Roughness and anisotropy.
-const SURFACES := [[0.3, 0.0], [0.45, 0.7], [0.45, -0.7], [1.0, 0.0], [0.05, 0.0], [0.06, 0.7]]
+const SURFACES := [[0.3, 0.0], [0.45, 0.7], [0.45, -0.7], [1.0, 0.0], [0.05, 0.0], [0.06, 1.1]]
 
 
 func _material(roughness: float, anisotropy: float) -> LobeMaterial3D:
@@ -30,6 +30,8 @@ func _material(roughness: float, anisotropy: float) -> LobeMaterial3D:
 	material.roughness = roughness
 	material.anisotropy = anisotropy
 	material.anisotropy_enabled = true
+	# Tables, however long the widths are.
+	material.quality = LobeBaseMaterial3D.Quality.LOBES_8
 	return material
 
 
@@ -75,6 +77,21 @@ func test_a_material_draws_the_table_of_its_set_of_one(
 		var found: Dictionary = choice.table.lobes_at(view)[0]
 		assert_float(found["weight"]).is_equal_approx(expected["weight"], 1e-3)
 		assert_float(found["kappa"] / expected["kappa"]).is_equal_approx(1.0, 5e-3)
+
+
+func test_long_widths_draw_the_table_that_holds_the_target() -> void:
+	var material := _material(0.3, 0.9)
+	material.quality = LobeBaseMaterial3D.Quality.AUTOMATIC
+	var choice := TableChoice.new()
+	choice.choose(material)
+	assert_object(choice.table).is_null()
+	var reduced := _stand_in(material)
+	var lobes := LobeReduction.new()
+	lobes.tables[LobeReduction._key(load(GGX), LobeReduction.get_table(load(GGX), material))] = reduced
+	assert_bool(lobes.edit(material)).is_true()
+	choice.choose(material)
+	assert_vector(choice.table.alpha).is_equal_approx(reduced.table.alpha, Vector2(1e-6, 1e-6))
+	assert_int(choice.lobe_count).is_equal(1)
 
 
 func test_sets_of_one_are_equal_bytes_and_small() -> void:

@@ -99,7 +99,7 @@ func test_slices_make_the_same_light(budget: float, _test_parameters := BUDGETS)
 	else:
 		# 0.77 million fetches but for the last passes of the search, at 0.4 million or more a
 		# millisecond.
-		assert_int(_environment.update_frames).is_between(fewest + 2, fewest + 24)
+		assert_int(_environment.update_frames).is_between(fewest + 2, fewest + 20)
 	var sliced: Array[Image] = _environment._live.chain.cube.get_faces()
 	for face in 6:
 		assert_bool(whole[face].get_data() == sliced[face].get_data()).is_true()

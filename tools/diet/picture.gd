@@ -42,9 +42,18 @@ func _materials() -> Array[Dictionary]:
 		if not asks and frozen == null:
 			continue
 		var code: String = material.call("get_shader" + "_code") if asks else frozen.code
+		# In lights with suns.
+		var other: Variant = null if asks else material.get("shader_for_" + "sources")
+		var sunny := (other as Shader).code if other is Shader else ""
 		var fetches: Dictionary = material.call("get_fet" + "ches") if asks else {}
 		found.append(
-			{"code": code, "fetches": fetches, "uniforms": _uniforms(code), "is_frozen": not asks}
+			{
+				"code": code,
+				"fetches": fetches,
+				"uniforms": _uniforms(code),
+				"uniforms_for_sources": _uniforms(sunny),
+				"is_frozen": not asks,
+			}
 		)
 	return found
 
@@ -60,9 +69,11 @@ func _sizes() -> Array[int]:
 
 # Of each uniform its name, and whether it is a texture.
 func _uniforms(code: String) -> Dictionary[String, bool]:
+	var uniforms: Dictionary[String, bool] = {}
+	if code.is_empty():
+		return uniforms
 	var shader := Shader.new()
 	shader.code = code
-	var uniforms: Dictionary[String, bool] = {}
 	for uniform: Dictionary in shader.get_shader_uniform_list():
 		uniforms[uniform["name"]] = uniform["type"] == TYPE_OBJECT
 	return uniforms

@@ -80,8 +80,6 @@ func reduce(file: String, material: LobeMaterial3D) -> bool:
 	var problem := "" if _is_fixed(material) else why_none
 	if problem.is_empty() and tables_of == null:
 		problem = "a table or a texture of its own or a script says what is drawn"
-	if problem.is_empty() and _has_line(material):
-		problem = "its widths are long, and drawn without a table"
 	if problem.is_empty() and not can_edit(home):
 		problem = "imported files are exported as they are"
 	if problem:
@@ -151,11 +149,6 @@ func _edit(value: Variant, seen: Dictionary[int, bool]) -> bool:
 	return is_changed
 
 
-static func _has_line(material: LobeMaterial3D) -> bool:
-	var brushing := material.get_shown_anisotropy()
-	return TableChoice.find_line(material, material.roughness, brushing).count > 0
-
-
 # Whether nothing changes the widths while the game runs.
 func _is_fixed(material: LobeMaterial3D) -> bool:
 	return why_none.is_empty() or material.get_meta(FIXED, false)
@@ -169,6 +162,8 @@ func _give(material: LobeMaterial3D) -> bool:
 	if not tables.has(key):
 		return false
 	material.table_set = tables[key].set_of_one
+	# Long widths would be drawn by more lobes, without a table.
+	material.quality = LobeBaseMaterial3D.Quality.LOBES_8
 	return true
 
 

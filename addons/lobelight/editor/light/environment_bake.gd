@@ -10,6 +10,9 @@ const PanoramaFile := preload("../import/panorama_file.gd")
 const PanoramaFilter := preload("panorama_filter.gd")
 const Pyramid := preload("../../runtime/pyramid/pyramid.gd")
 
+# After so many frames a search for sources is believed to have none.
+const _MOST_FRAMES := 16
+
 var _task: RefCounted
 
 
@@ -84,6 +87,8 @@ func _draw(environment: LobeEnvironment3D) -> Variant:
 	settings.capture.far = environment.capture_far
 	var drawing := LiveLight.new(settings, func(_is_other: bool) -> void: pass)
 	var is_drawn: bool = await drawing.rebuild()
+	if is_drawn and _finds_sources(drawing):
+		is_drawn = await drawing.rebuild()
 	var error := drawing.error
 	var drawn := drawing.light
 	var faces: Array[Image] = []
@@ -109,6 +114,19 @@ func _draw(environment: LobeEnvironment3D) -> Variant:
 		light.axes = drawn.rotation
 	light.base_energy = drawn.energy
 	return light
+
+
+# Whether there are sources in the light that the next update takes out. An editor in which nothing
+# moves draws no frames, which the answer comes with.
+static func _finds_sources(drawing: LiveLight) -> bool:
+	var chain := drawing.chain
+	if chain == null:
+		return false
+	for frame in _MOST_FRAMES:
+		if not drawing.source.awaits_search(chain):
+			break
+		RenderingServer.force_draw(false)
+	return drawing.source.follow_search(chain)
 
 
 # Of a light on the GPU; none where it has none, or where they cannot be read.
