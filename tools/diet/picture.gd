@@ -46,14 +46,17 @@ func _materials() -> Array[Dictionary]:
 		var other: Variant = null if asks else material.get("shader_for_" + "sources")
 		var sunny := (other as Shader).code if other is Shader else ""
 		var fetches: Dictionary = material.call("get_fet" + "ches") if asks else {}
-		found.append(
-			{
-				"code": code,
-				"fetches": fetches,
-				"uniforms": _uniforms(code),
-				"uniforms_for_sources": _uniforms(sunny),
-				"is_frozen": not asks,
-			}
+		(
+			found
+			. append(
+				{
+					"code": code,
+					"fetches": fetches,
+					"uniforms": _uniforms(code),
+					"uniforms_for_sources": _uniforms(sunny),
+					"is_frozen": not asks,
+				}
+			)
 		)
 	return found
 
