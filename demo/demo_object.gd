@@ -40,6 +40,12 @@ func _init() -> void:
 	mesh = _build()
 
 
+# What the shape builds is not saved with the scene.
+func _validate_property(property: Dictionary) -> void:
+	if property["name"] == "mesh":
+		property["usage"] &= ~PROPERTY_USAGE_STORAGE
+
+
 func _ready() -> void:
 	material = material_override as LobeMaterial3D
 	if Engine.is_editor_hint() or material == null:

@@ -252,6 +252,16 @@ need_template() {
   export TEMPLATE
 }
 
+# need_web_template: sets WEB_TEMPLATE, the folder with the engine's Web template: index.js, index.wasm and two worklets.
+need_web_template() {
+  WEB_TEMPLATE=$CACHE/templates/web-$(content_hash "$ROOT/tools/setup/web_template.sh" "$ROOT/tools/setup/web_template.txt")
+  if [[ ! -f $WEB_TEMPLATE/complete ]]; then
+    need_packages
+    locked "$CACHE/lock/web-template" bash "$ROOT/tools/setup/web_template.sh" "$WEB_TEMPLATE"
+  fi
+  export WEB_TEMPLATE
+}
+
 # need_java: sets and exports JAVA_HOME, a JDK of at least 17, and makes sure of Maven.
 need_java() {
   local probes=("command javac openjdk-17-jdk-headless" "command mvn maven")
