@@ -37,8 +37,10 @@ while (($# > 0)); do
     --serve)
       port=$DEFAULT_PORT
       if [[ -n ${2:-} && ${2:-} != -* ]]; then
-        [[ $2 =~ ^[0-9]{1,5}$ ]] && ((10#$2 < 65536)) || die "web: --serve takes a port from 0 to 65535, not '$2'"
-        port=$2
+        if [[ ! $2 =~ ^[0-9]{1,5}$ ]] || ((10#$2 > 65535)); then
+          die "web: --serve takes a port from 0 to 65535, not '$2'"
+        fi
+        port=$((10#$2))
         shift
       fi
       ;;
