@@ -1,6 +1,7 @@
 extends GdUnitTestSuite
 ## What several loader threads share: each has the same object, and none keeps the others waiting.
 
+const ShaderVariants := preload("res://addons/lobelight/runtime/light/shader_variants.gd")
 const TableChoice := preload("res://addons/lobelight/runtime/material/table_choice.gd")
 const THREADS := 4
 const TABLES := 2000
@@ -102,7 +103,7 @@ func test_nobody_waits_while_the_ready_set_is_loaded() -> void:
 func test_nobody_waits_while_an_include_is_loaded() -> void:
 	var include := ShaderInclude.new()
 	include.code = "void fragment() {}\n"
-	var watch := Watch.new(Included.PATH, include, LobeMaterial3D._variants_mutex)
+	var watch := Watch.new(Included.PATH, include, ShaderVariants._mutex)
 	ResourceLoader.add_resource_format_loader(watch, true)
 	var material := Included.new()
 	await await_idle_frame()

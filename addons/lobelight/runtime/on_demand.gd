@@ -14,6 +14,7 @@ const RENDERING_DEVICE := "the renderers Forward+ and Mobile"
 const MIXING := "widths of anisotropic materials that change"
 const LINES := "long widths without tables"
 const ENGINE_LIGHT := "diffuse light of the engine"
+const OWN_SHADERS := "shaders of one's own"
 const SOURCES := "suns and lamps that are taken out of lights"
 const COMPATIBILITY := "the renderer Compatibility"
 

@@ -19,6 +19,8 @@ const FORMATS: Array[Image.Format] = [
 const COARSE_WIDTH := 0.044
 ## Texels of [member sources].
 const SOURCES_SIZE := Vector2i(4, 3)
+const OnDemand := preload("../on_demand.gd")
+const _BINDING := "res://addons/lobelight/runtime/own_shaders/shader_binding.gd"
 # A unit vector's largest component is at least this.
 const _LEAST_COMPONENT := 0.57735027
 const _FACES := 6
@@ -142,6 +144,34 @@ static func make_constant(colour: Color, even: bool) -> LobeLight:
 	light.faces = made
 	light.is_even = even
 	return light
+
+
+## Gives a material of your own the light of where it is, and the lobes that its shader draws: from
+## now on it shows what a [LobeMaterial3D] does, whatever [LobeEnvironment3D] and [LobeProbe3D]s
+## there are, until [method unbind] or until it is freed. Its shader is to include
+## [code]res://addons/lobelight/lobelight.gdshaderinc[/code], which describes the functions.
+## [br][br]
+## The lobes are those of GGX, or of [param tables], a [LobeTableSet]. With [param shown] the
+## material shows that light wherever it is, as with [member LobeMaterial3D.light]. Who is bound
+## already takes both anew. The material keeps its shader and its parameters; nothing of the light is
+## saved with it, and copies of it are not bound. [LobeShaderMaterial] binds itself, in the editor
+## too.
+## [br][br]
+## Exports have this where a file of the project includes that file, or names this method or that
+## class; elsewhere nothing happens but an error.
+static func bind(
+	material: ShaderMaterial, tables: Resource = null, shown: LobeLight = null
+) -> void:
+	var binding := OnDemand.fetch(_BINDING, OnDemand.OWN_SHADERS) as GDScript
+	if binding != null:
+		binding.call(&"bind", material, tables, shown)
+
+
+## The material keeps its shader, and sees black from now on. Nothing happens if it is not bound.
+static func unbind(material: ShaderMaterial) -> void:
+	var binding := OnDemand.fetch(_BINDING, OnDemand.OWN_SHADERS) as GDScript
+	if binding != null:
+		binding.call(&"unbind", material)
 
 
 ## Why the light cannot be shown, in a sentence; empty if it can.

@@ -12,6 +12,8 @@ const MODELS: Dictionary[String, String] = {
 }
 ## How many lobes a line has, that there are few shaders.
 const COUNTS: PackedInt32Array = [12, 16, 24, 32, 40]
+## What is drawn where nothing else is said.
+const DEFAULT_BRDF := "ggx"
 const _PART := "res://addons/lobelight/runtime/line/line.gdshaderinc"
 # Who wants no more than this wants no line.
 const _FEWEST := 8

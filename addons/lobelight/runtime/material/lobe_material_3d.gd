@@ -63,6 +63,7 @@ const LightRegistry := preload("../light/light_registry.gd")
 const MaterialParameters := preload("material_parameters.gd")
 const MaterialShader := preload("material_shader.gd")
 const OnDemand := preload("../on_demand.gd")
+const ShaderVariants := preload("../light/shader_variants.gd")
 const ShownProperties := preload("shown_properties.gd")
 const TableChoice := preload("table_choice.gd")
 
@@ -96,10 +97,6 @@ const _INCLUDES: Array[ShaderInclude] = [
 	preload("../vertices/vertices.gdshaderinc"),
 	preload("../shaders/widths.gdshaderinc"),
 ]
-
-# Shaders in use, by their code.
-static var _variants: Dictionary[String, WeakRef] = {}
-static var _variants_mutex := Mutex.new()
 
 @export_group("Light")
 ## A light that the material shows wherever it is, from [method LobeEnvironment3D.get_light],
@@ -301,35 +298,6 @@ func _take_shader(code: String) -> void:
 		return
 	var before := _shader
 	var is_last := _last_shader != null and _last_shader.code == code
-	_shader = _last_shader if is_last else _get_variant(code)
+	_shader = _last_shader if is_last else ShaderVariants.fetch(code)
 	_last_shader = before
 	RenderingServer.material_set_shader(_rid, _shader.get_rid())
-
-
-static func _get_variant(code: String) -> Shader:
-	var shader := _find_variant(code)
-	if shader != null:
-		return shader
-	# Not under the lock: what the code includes may have to be loaded, and who loads may wait for
-	# other threads, and these for the lock.
-	var made := Shader.new()
-	made.code = code
-	_variants_mutex.lock()
-	shader = _find_variant(code)
-	if shader == null:
-		for other: String in _variants.keys():
-			if _variants[other].get_ref() == null:
-				_variants.erase(other)
-		shader = made
-		_variants[code] = weakref(shader)
-	_variants_mutex.unlock()
-	return shader
-
-
-static func _find_variant(code: String) -> Shader:
-	_variants_mutex.lock()
-	var shader: Shader
-	if _variants.has(code):
-		shader = _variants[code].get_ref()
-	_variants_mutex.unlock()
-	return shader
