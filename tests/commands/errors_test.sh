@@ -187,6 +187,12 @@ refuses "package, an output in a missing folder" "missing/x.zip" package --out m
 refuses "android, an unknown option" "--colour" android --colour red
 refuses "android, an output that is a file" "is not a folder" android --out "$environment"
 refuses "android, JSON in a missing folder" "missing/a.json" android --json missing/a.json
+refuses "web, an unknown option" "--colour" web --colour red
+refuses "web, an output that is a file" "is not a folder" web --out "$environment"
+refuses "web, JSON in a missing folder" "missing/a.json" web --json missing/a.json
+refuses "web, a port that is none" "not 'here'" web --serve here
+refuses "web, a port beyond the last" "not '65536'" web --serve 65536
+refuses "web, headers without a server" "--isolated goes with --serve" web --isolated
 refuses "diet, nothing to look at" "SCENE|PROJECT" diet
 refuses "diet, a scene that is not there" "absent.tscn" diet absent.tscn
 refuses "diet, a file that is no scene" "is not a scene" diet "$root/README.md"

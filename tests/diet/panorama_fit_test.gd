@@ -120,6 +120,19 @@ func test_a_panorama_for_environments_alone_gets_smaller() -> void:
 	assert_bool(texture.get_image().get_data() == expected.get_data()).is_true()
 
 
+func test_a_preset_may_ask_for_narrow_panoramas_whatever_shows_them() -> void:
+	var share := PanoramaFit.narrow(SUNSET, 512)
+	assert_vector(share.extent_before).is_equal(Vector2i(1024, 512))
+	assert_vector(share.extent_after).is_equal(Vector2i(512, 256))
+	# Four bytes a texel, and a header.
+	assert_int(share.after).is_between(512 * 256 * 4, 512 * 256 * 4 + 64)
+	assert_int(share.bytes.size()).is_equal(share.after)
+	# Texels are not halved, but may take fewer bytes.
+	assert_vector(PanoramaFit.narrow(SUNSET, 1000).extent_after).is_equal(Vector2i(1024, 512))
+	for other: String in ["res://addons/lobelight/icons/lobelight.svg", SCENE, "res://missing.exr"]:
+		assert_object(PanoramaFit.narrow(other, 16)).is_null()
+
+
 func test_without_the_option_nothing_is_resized() -> void:
 	var diet := Diet.of_files(ProjectFiles.of_scene(SCENE), 0.0, false, false)
 	assert_int(diet.fit.size).is_equal(0)

@@ -80,7 +80,7 @@ expect_pack "$work/index.pck" --present 'demo/demo.tscn' --present 'demo/build/t
   --absent 'bake/*.gd' --absent 'bake/*.gdc' --absent 'bake/*.gd.remap' --absent 'bake/*.json' --absent 'tests/*' --absent 'tools/*' --absent 'docs/*' \
   --absent 'demo/commands/*' || die "web: the pack holds too much or too little"
 godot_headless --no-header --script res://tools/web/licences.gd -- "$work/engine.txt" >/dev/null
-"$PYTHON" "$ROOT/tools/web/site.py" --page "$ROOT/tools/web/page" --template "$WEB_TEMPLATE" --pack "$work/index.pck" \
+"$PYTHON" "$ROOT/tools/web/site_folder.py" --page "$ROOT/tools/web/page" --template "$WEB_TEMPLATE" --pack "$work/index.pck" \
   --icon "$ROOT/addons/lobelight/icons/lobelight.svg" --licences "$ROOT/LICENSE" "$work/engine.txt" \
   --report "$ROOT/.godot/lobelight_export.json" --out "$out" ${json:+--json "$json"}
 say "$out"

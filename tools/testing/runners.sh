@@ -62,7 +62,7 @@ jobs_of() {
     cpp) printf '%s\n' cpp cpp_sanitized fuzz ;;
     stability) printf '%s\n' stability stability_changes ;;
     commands) printf '%s\n' commands setup report report_smoke bench_runtime ;;
-    export) printf '%s\n' export_diet export_pictures export_package export_android ;;
+    export) printf '%s\n' export_diet export_pictures export_package export_android export_web ;;
     render)
       for renderer in ${LOBELIGHT_RENDERERS:-mobile gl_compatibility forward_plus}; do
         echo "render_$renderer"
@@ -99,7 +99,8 @@ prepare_tests() {
   need_import
   [[ ! $wanted =~ \ (render_[a-z_]+)\  ]] || bake_demo_tables thesis_8
   [[ $wanted != *" export_package "* ]] || need_package_libraries
-  [[ $wanted != *" export_android "* ]] || bake_demo_tables "${DEMO_SETS[@]}"
+  [[ ! $wanted =~ \ export_(android|web)\  ]] || bake_demo_tables "${DEMO_SETS[@]}"
+  [[ $wanted != *" export_web "* ]] || need_web_template
   [[ ! $wanted =~ \ (stability|stability_changes)\  ]] || need_python stability
   [[ $wanted != *" crosscheck "* ]] || need_python crosscheck
   [[ ! $wanted =~ \ (report|report_smoke|commands)\  ]] || need_python report
@@ -252,6 +253,12 @@ run_export_package() {
 run_export_android() {
   run_logged export-android in_time bash "$ROOT/tools/commands/android.sh" --pack-only --out "$RESULTS/android"
   judge export-android
+}
+
+# The demo as a page for browsers.
+run_export_web() {
+  run_logged export-web in_time "$PYTHON" "$ROOT/tests/commands/web_test.py" "$RESULTS/web"
+  judge export-web
 }
 
 # The reference integrator against Mitsuba 3, small.

@@ -1,6 +1,7 @@
 """What an exported pack holds, under the names that the project has for it, and why."""
 
 import fnmatch
+import hashlib
 import json
 import pathlib
 import re
@@ -25,7 +26,8 @@ REASONS = [
     (".godot/*", "the engine's lists of files and classes"),
     ("project.binary", "the project's settings"),
 ]
-# What the engine makes of a file, and how it names that.
+# What the addon's export plugin and the engine make of a file, and how they name that.
+BY_PATH = re.compile(r"\.godot/exported/lobelight/(?P<digest>[0-9a-f]{32})\.\w+$")
 MADE = re.compile(r"\.godot/(?:imported/(?P<imported>.+)-|exported/\d+/export-)[0-9a-f]{32}(?:-(?P<exported>.+))?\.\w+$")
 
 
@@ -40,6 +42,7 @@ def explain(pack, report):
         if source != name:
             sources[pathlib.PurePath(source).name] = source
             sources[pathlib.PurePath(source).stem] = source
+            sources[hashlib.md5(f"res://{source}".encode()).hexdigest()] = source
     sizes = {}
     for name, size, _start in files:
         path = source_of(name, sources)
@@ -50,8 +53,9 @@ def explain(pack, report):
 
 def source_of(name, sources):
     """The project's file that a file in the pack was made of."""
-    made = MADE.match(name)
-    if made:
+    if made := BY_PATH.match(name):
+        return sources.get(made["digest"], name)
+    if made := MADE.match(name):
         return sources.get(made["imported"] or made["exported"], name)
     return re.sub(r"\.gdc$", ".gd", re.sub(r"\.(remap|import)$", "", name))
 

@@ -11,6 +11,7 @@
   const files = JSON.parse(document.getElementById("files").textContent);
   const MEGABYTE = 1e6;
   let failed = false;
+  let started = false;
 
   function fail(sentence) {
     failed = true;
@@ -73,6 +74,11 @@
     }
   }
 
+  function showFailure(error) {
+    console.error(error);
+    fail(describe(error));
+  }
+
   function describe(error) {
     const text = error && error.message ? error.message : String(error);
     return `The demo could not be started: ${text.replace(/\.*$/, "")}. Please reload the page to try again.`;
@@ -103,15 +109,15 @@
     fileSizes: files,
     onProgress: showProgress,
   });
+  // What fails while the engine itself is loaded reaches nobody else.
+  window.addEventListener("unhandledrejection", (event) => {
+    if (!started) {
+      showFailure(event.reason);
+    }
+  });
   say("Loading …", 0);
-  engine.startGame().then(
-    () => {
-      cover.classList.add("gone");
-      setTimeout(() => cover.classList.contains("gone") && cover.remove(), 700);
-    },
-    (error) => {
-      console.error(error);
-      fail(describe(error));
-    },
-  );
+  engine.startGame().then(() => {
+    started = true;
+    cover.classList.add("gone");
+  }, showFailure);
 })();

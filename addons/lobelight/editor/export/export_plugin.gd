@@ -9,11 +9,14 @@ extends EditorExportPlugin
 ## their panoramas as many texels as that shows, unless "lobelight/fit_environments" is off.
 ## Materials that nothing changes go along as shaders and numbers, without what makes these of their
 ## properties, unless "lobelight/freeze_materials" is off. With a
-## "lobelight/target_psnr", materials get the fewest lobes that reach it.
+## "lobelight/target_psnr", materials get the fewest lobes that reach it. With a
+## "lobelight/panorama_width", all panoramas are halved while they have as many texels in a row:
+## pages load them faster.
 
 const Diet := preload("diet.gd")
 const ExtensionList := preload("extension_list.gd")
 const LightVariant := preload("light_variant.gd")
+const PanoramaFit := preload("panorama_fit.gd")
 const ProjectFiles := preload("project_files.gd")
 const Reach := preload("reach.gd")
 const TableChoice := preload("../../runtime/material/table_choice.gd")
@@ -25,6 +28,7 @@ const CUT_TABLES := "lobelight/cut_tables"
 const FIT_ENVIRONMENTS := "lobelight/fit_environments"
 const FREEZE_MATERIALS := "lobelight/freeze_materials"
 const TARGET_PSNR := "lobelight/target_psnr"
+const PANORAMA_WIDTH := "lobelight/panorama_width"
 const REPORT := "res://.godot/lobelight_export.json"
 
 var _extension_list := ExtensionList.new()
@@ -50,6 +54,13 @@ func _get_export_options(_platform: EditorExportPlatform) -> Array[Dictionary]:
 		"hint_string": "0,46,0.5,suffix:dB",
 	}
 	options.append({"option": target, "default_value": 0.0})
+	var width := {
+		"name": PANORAMA_WIDTH,
+		"type": TYPE_INT,
+		"hint": PROPERTY_HINT_RANGE,
+		"hint_string": "0,8192,1,or_greater,suffix:px",
+	}
+	options.append({"option": width, "default_value": 0})
 	return options
 
 
@@ -93,6 +104,8 @@ func _export_begin(
 
 
 func _export_file(path: String, type: String, features: PackedStringArray) -> void:
+	if _diet != null and type == "CompressedTexture2D":
+		_narrow_panorama(path)
 	if _diet != null and _diet.panoramas.shares.has(path):
 		_export_panorama(_diet.panoramas.shares[path])
 		return
@@ -130,6 +143,17 @@ func _export_variant(path: String, type: String) -> void:
 	var bytes := LightVariant.of(path, type)
 	if not bytes.is_empty():
 		add_file(Diet.EDITED + path.md5_text() + ".res", bytes, true)
+
+
+# What nothing but the preset makes smaller, or what that makes smaller still.
+func _narrow_panorama(path: String) -> void:
+	var width: Variant = get_option(PANORAMA_WIDTH)
+	var share: PanoramaFit.Share = _diet.panoramas.shares.get(path)
+	if not width is int or width <= 0 or share != null and share.is_left_out:
+		return
+	var narrowed := PanoramaFit.narrow(path, width)
+	if narrowed != null and (share == null or narrowed.after < share.after):
+		_diet.panoramas.shares[path] = narrowed
 
 
 # A panorama that is left out or made smaller, not by the engine's way to put a file in the place of

@@ -19,6 +19,18 @@ const ProjectFiles := preload("project_files.gd")
 const TEXELS_AROUND := 4
 ## Half floats end here.
 const MOST := 65504.0
+## In which textures are pictures, rather than heights or other numbers.
+const COLOUR_FORMATS: Array[Image.Format] = [
+	Image.FORMAT_RGBF,
+	Image.FORMAT_RGBAF,
+	Image.FORMAT_RGBH,
+	Image.FORMAT_RGBAH,
+	Image.FORMAT_RGBE9995,
+	Image.FORMAT_BPTC_RGBF,
+	Image.FORMAT_BPTC_RGBFU,
+	Image.FORMAT_ASTC_4x4_HDR,
+	Image.FORMAT_ASTC_8x8_HDR,
+]
 
 
 ## What becomes of a panorama.
@@ -88,6 +100,30 @@ static func of(files: PackedStringArray, features: Features, fit: EnvironmentFit
 	for entry in features.baked:
 		panoramas._leave_out((entry[1] as Dictionary).get("panorama"), entry[0], files, features)
 	return panoramas
+
+
+## A panorama, whatever shows it, that is to load fast: halved while it keeps [param width] texels
+## in a row. Panoramas are imported textures of colours in linear floats, twice as wide as high.
+## Null for what is none, or would not get smaller.
+static func narrow(path: String, width: int) -> Share:
+	if not FileAccess.file_exists(path + ".import"):
+		return null
+	var texture := load(path) as Texture2D
+	if texture == null or texture.get_width() != 2 * texture.get_height():
+		return null
+	var image := texture.get_image()
+	if image == null or image.get_format() not in COLOUR_FORMATS:
+		return null
+	var share := Share.new()
+	share.path = path
+	share.before = _get_imported_bytes(path)
+	share.extent_before = image.get_size()
+	share.why = "the preset asks for panoramas of %d texels" % width
+	var narrowed := shrink(image, width)
+	share.extent_after = narrowed.get_size()
+	share.bytes = _make_texture(narrowed)
+	share.after = share.bytes.size()
+	return share if share.after < share.before else null
 
 
 ## Takes the panoramas that are left out from the environments in a scene. Returns whether there was

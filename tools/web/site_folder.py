@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Puts together the folder that any host serves: the page, the engine's Web template and a pack.
 
-site.py --page FOLDER --template FOLDER --pack FILE --icon FILE --licences FILE… --report FILE --out FOLDER [--json FILE]
+site_folder.py --page FOLDER --template FOLDER --pack FILE --icon FILE --licences FILE… --report FILE --out FOLDER [--json FILE]
 
 Each file is replaced whole. Prints what the folder weighs, and of the pack the largest files with the reasons for them.
 Ends with 1 where the pack is larger than a page should load.
@@ -17,7 +17,7 @@ import zlib
 import contents
 
 # Beside the engine, which is the same for all games.
-MOST_PACK_BYTES = 10_000_000
+MOST_PACK_BYTES = 5_000_000
 TEMPLATE_FILES = ["index.js", "index.wasm", "index.audio.worklet.js", "index.audio.position.worklet.js"]
 PLACE_OF_SIZES = "{{FILES}}"
 LARGEST = 12
@@ -55,6 +55,13 @@ def weigh(files):
     return sizes
 
 
+def judge(sizes):
+    """What is wrong with the sizes, in a sentence; empty if nothing is."""
+    if sizes["pack"] > MOST_PACK_BYTES:
+        return f"the pack has {sizes['pack']} bytes, but a page should load {MOST_PACK_BYTES} at most"
+    return ""
+
+
 def main():
     parser = argparse.ArgumentParser(allow_abbrev=False)
     for name in ("page", "template", "pack", "icon", "report", "out"):
@@ -81,8 +88,8 @@ def main():
         print(f"{entry['bytes']:9}  {entry['path']}: {entry['why']}")
     rest = entries[LARGEST:]
     print(f"{sum(entry['bytes'] for entry in rest):9}  {len(rest)} others")
-    if sizes["pack"] > MOST_PACK_BYTES:
-        sys.exit(f"web: the pack has {sizes['pack']} bytes, but a page should load {MOST_PACK_BYTES} at most")
+    if problem := judge(sizes):
+        sys.exit(f"web: {problem}")
 
 
 if __name__ == "__main__":
