@@ -98,7 +98,9 @@ func _unhandled_key_input(event: InputEvent) -> void:
 		KEY_RIGHT:
 			_demo.divider += 0.02
 		KEY_ESCAPE:
-			get_tree().quit()
+			# A page stays, and would be dead.
+			if not OS.has_feature("web"):
+				get_tree().quit()
 
 
 ## Lays the controls out for the viewport's size.

@@ -16,6 +16,8 @@ const DEFAULT_MOBILE_SIZE := 128
 const NO_PLACE := -100
 const _MIN_SIZE := 16
 const _MAX_SIZE := 1024
+# As features that an export has; the last two are those of browsers on phones.
+const _PHONES: Array[String] = ["mobile", "web_android", "web_ios"]
 const _FOLDER := "res://addons/lobelight/runtime/probes/"
 
 ## Called when other lights have places.
@@ -33,7 +35,7 @@ static func make() -> RefCounted:
 
 ## What the project says of the size of probes.
 static func find_size() -> int:
-	var value: int = DEFAULT_MOBILE_SIZE if OS.has_feature("mobile") else DEFAULT_SIZE
+	var value: int = DEFAULT_MOBILE_SIZE if _PHONES.any(OS.has_feature) else DEFAULT_SIZE
 	if ProjectSettings.has_setting(SETTING):
 		value = ProjectSettings.get_setting_with_override(SETTING)
 	return clampi(nearest_po2(maxi(value, 1)), _MIN_SIZE, _MAX_SIZE)
