@@ -22,8 +22,8 @@ import site_folder  # noqa: E402
 
 SERVE = ROOT / "tools/web/serve.py"
 # A browser loads these; the engine's .js loads the worklets by the names that they have.
-FILES = ["index.html", "page.js", "page.css", "index.js", "index.wasm", "index.pck", "lobelight.svg", "licences.txt"]
-FILES += ["index.audio.worklet.js", "index.audio.position.worklet.js"]
+FILES = ["index.html", "page.js", "page.css", "index.js", "index.wasm", "index.pck", "lobelight.svg", "demo.png"]
+FILES += ["licences.txt", "index.audio.worklet.js", "index.audio.position.worklet.js"]
 
 
 def pinned():

@@ -77,12 +77,14 @@ quiet_engine "$GODOT" --headless --path "$ROOT" --export-pack Web "$work/index.p
   die "web: the export failed, or wrote an error or a warning"
 }
 expect_pack "$work/index.pck" --present 'demo/demo.tscn' --present 'demo/build/tables/thesis_8.res' \
-  --absent 'bake/*.gd' --absent 'bake/*.gdc' --absent 'bake/*.gd.remap' --absent 'bake/*.json' --absent 'tests/*' --absent 'tools/*' --absent 'docs/*' \
-  --absent 'demo/commands/*' || die "web: the pack holds too much or too little"
+  --absent 'bake/*.gd' --absent 'bake/*.gdc' --absent 'bake/*.gd.remap' --absent 'bake/*.json' --absent 'tests/*' \
+  --absent 'tools/*' --absent 'docs/*' --absent 'demo/commands/*' --absent 'demo/engine_light/*' \
+  || die "web: the pack holds too much or too little"
 godot_headless --no-header --script res://tools/web/licences.gd -- "$work/engine.txt" >/dev/null
-"$PYTHON" "$ROOT/tools/web/site_folder.py" --page "$ROOT/tools/web/page" --template "$WEB_TEMPLATE" --pack "$work/index.pck" \
-  --icon "$ROOT/addons/lobelight/icons/lobelight.svg" --licences "$ROOT/LICENSE" "$work/engine.txt" \
-  --report "$ROOT/.godot/lobelight_export.json" --out "$out" ${json:+--json "$json"}
+"$PYTHON" "$ROOT/tools/web/site_folder.py" --page "$ROOT/tools/web/page" --template "$WEB_TEMPLATE" \
+  --pack "$work/index.pck" --pictures "$ROOT/addons/lobelight/icons/lobelight.svg" "$ROOT/docs/pictures/demo.png" \
+  --licences "$ROOT/LICENSE" "$work/engine.txt" --report "$ROOT/.godot/lobelight_export.json" \
+  --out "$out" ${json:+--json "$json"}
 say "$out"
 if [[ -n $port ]]; then
   rm -rf "$work"

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Puts together the folder that any host serves: the page, the engine's Web template and a pack.
 
-site_folder.py --page FOLDER --template FOLDER --pack FILE --icon FILE --licences FILE… --report FILE --out FOLDER [--json FILE]
+site_folder.py --page FOLDER --template FOLDER --pack FILE --pictures FILE… --licences FILE… --report FILE --out FOLDER
+    [--json FILE]
 
 Each file is replaced whole. Prints what the folder weighs, and of the pack the largest files with the reasons for them.
 Ends with 1 where the pack is larger than a page should load.
@@ -36,7 +37,8 @@ def collect(options):
     files["index.pck"] = options.pack.read_bytes()
     for file in sorted(options.page.iterdir()):
         files[file.name] = file.read_bytes()
-    files[options.icon.name] = options.icon.read_bytes()
+    for file in options.pictures:
+        files[file.name] = file.read_bytes()
     files["licences.txt"] = b"\n".join(file.read_bytes() for file in options.licences)
     # What hosts send compressed has no length of its own to go by.
     sizes = json.dumps({name: len(files[name]) for name in ("index.wasm", "index.pck")})
@@ -64,8 +66,9 @@ def judge(sizes):
 
 def main():
     parser = argparse.ArgumentParser(allow_abbrev=False)
-    for name in ("page", "template", "pack", "icon", "report", "out"):
+    for name in ("page", "template", "pack", "report", "out"):
         parser.add_argument(f"--{name}", type=pathlib.Path, required=True)
+    parser.add_argument("--pictures", type=pathlib.Path, nargs="+", required=True)
     parser.add_argument("--licences", type=pathlib.Path, nargs="+", required=True)
     parser.add_argument("--json", type=pathlib.Path)
     options = parser.parse_args()

@@ -87,6 +87,10 @@
   const problem = findMissing();
   if (problem) {
     fail(problem);
+    // What there is instead of the demo.
+    const still = document.getElementById("still");
+    still.src = "demo.png";
+    still.hidden = false;
     return;
   }
   if (typeof Engine !== "function") {
