@@ -61,15 +61,15 @@ class FolderTest(unittest.TestCase):
         cls.folder = pathlib.Path(sys.argv[1])
         cls.report = cls.folder.parent / "web.json"
         shutil.rmtree(cls.folder, ignore_errors=True)
-        cls.run = subprocess.run(
+        cls.built = subprocess.run(
             ["bash", ROOT / "tools/commands/web.sh", "--out", cls.folder, "--json", cls.report],
             stdout=subprocess.PIPE,
             text=True,
         )
 
     def test_the_command_ends_well_and_says_what_the_folder_weighs(self):
-        self.assertEqual(0, self.run.returncode)
-        self.assertRegex(self.run.stdout, r"(?m)^pack +\d+ +\d+$")
+        self.assertEqual(0, self.built.returncode)
+        self.assertRegex(self.built.stdout, r"(?m)^pack +\d+ +\d+$")
 
     def test_the_folder_has_what_a_browser_loads_and_nothing_else(self):
         self.assertEqual(sorted(FILES), sorted(file.name for file in self.folder.iterdir()))

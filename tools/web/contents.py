@@ -19,6 +19,7 @@ REASONS = [
     ("addons/lobelight/tables/*", "lobes that materials are drawn with"),
     ("addons/lobelight/icons/*", "the project's icon"),
     ("addons/lobelight/runtime/*", "the addon's run time"),
+    ("addons/lobelight/*.gdshaderinc", "functions for shaders of one's own"),
     ("demo/environments/*", "an environment, seen behind the objects and lighting them"),
     ("demo/meshes/*", "one of the objects, or what builds them"),
     ("demo/*", "the demo"),
