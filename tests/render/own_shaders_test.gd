@@ -82,13 +82,179 @@ func test_surfaces_are_those_of_lobe_materials(
 			# Without anisotropy LobeMaterial3D has the isotropic lobes.
 			if (anisotropy == 0.0) == defines.is_empty():
 				continue
-			var own := _own(SHADER % defines)
-			own.set_shader_parameter(&"albedo", Color(0.9, 0.6, 0.3))
-			own.set_shader_parameter(&"metallic", metallic)
-			own.set_shader_parameter(&"roughness", roughness)
-			own.set_shader_parameter(&"anisotropy", anisotropy)
+			var own := _own_surface(roughness, anisotropy, metallic, defines)
 			var ready := _lobe_material(roughness, anisotropy, metallic)
 			await _compare(own, ready)
+
+
+func test_rooms_are_seen_from_where_the_pixel_is() -> void:
+	await _light_up(0.0)
+	var probe := LobeProbe3D.new()
+	probe.light = LobeLight.make_constant(Color(0.1, 0.9, 0.3), true)
+	# It ends across the sphere.
+	probe.position = Vector3(-4.0, 0.0, 0.0)
+	probe.size = 8.0 * Vector3.ONE
+	probe.blend_distance = 0.5
+	_view.add_child(probe)
+	var own := _own_surface(0.4, 0.5, 0.5)
+	await _compare(own, _lobe_material(0.4, 0.5, 0.5))
+	assert_str(_shown_code(own)).contains("#define LOBELIGHT_PLACED")
+	probe.free()
+	# Lights that leave stay for some frames.
+	for frame in 6:
+		await _view.capture()
+	await _compare(own, _lobe_material(0.4, 0.5, 0.5))
+	assert_str(_shown_code(own)).not_contains("#define LOBELIGHT_PLACED")
+
+
+func test_the_light_is_followed_until_unbound() -> void:
+	_environment.panorama = Kit.constant(0.25)
+	await _environment.rebuild()
+	var own := _own(METAL)
+	assert_float(await _middle_of(own)).is_equal_approx(0.25, 0.002)
+	_environment.panorama = Kit.constant(0.5)
+	await _environment.rebuild()
+	assert_float(await _middle_of(own)).is_equal_approx(0.5, 0.004)
+	# A light of its own, and back.
+	LobeLight.bind(own, null, LobeLight.make_constant(Color(0.125, 0.125, 0.125), true))
+	assert_float(await _middle_of(own)).is_equal_approx(0.125, 0.002)
+	LobeLight.bind(own)
+	assert_float(await _middle_of(own)).is_equal_approx(0.5, 0.004)
+	LobeLight.unbind(own)
+	LobeLight.unbind(own)
+	assert_float(await _middle_of(own)).is_equal_approx(0.0, 0.001)
+	LobeLight.bind(own)
+	assert_float(await _middle_of(own)).is_equal_approx(0.5, 0.004)
+
+
+func test_other_shaders_and_other_code_are_followed() -> void:
+	_environment.panorama = Kit.constant(0.5)
+	await _environment.rebuild()
+	var own := _own(METAL)
+	assert_float(await _middle_of(own)).is_equal_approx(0.5, 0.004)
+	own.shader.code = METAL.replace("vec3(1.0)", "vec3(0.5)")
+	var half := await _middle_of(own)
+	assert_float(half).is_between(0.2, 0.3)
+	# Isotropic code wants another texture of lobes.
+	own.shader.code = METAL.replace("#include", "#define LOBELIGHT_ISOTROPIC\n#include")
+	assert_float(await _middle_of(own)).is_equal_approx(0.5, 0.004)
+	var other := Shader.new()
+	other.code = METAL.replace("vec3(1.0)", "vec3(0.5)")
+	own.shader = other
+	assert_float(await _middle_of(own)).is_equal_approx(half, 0.002)
+	own.shader = null
+	await _view.capture()
+
+
+func test_ward_is_ward() -> void:
+	await _light_up(400.0)
+	var tables: LobeTableSet = load("res://addons/lobelight/tables/ward_8.res")
+	var own := _own_surface(0.25, 0.9, 1.0)
+	LobeLight.bind(own, tables)
+	var ready := _lobe_material(0.25, 0.9, 1.0)
+	ready.table_set = tables
+	await _compare(own, ready)
+
+
+func test_a_lobe_shader_material_binds_itself_and_saves_nothing_of_the_light() -> void:
+	_environment.panorama = Kit.constant(0.5)
+	await _environment.rebuild()
+	var made := LobeShaderMaterial.new()
+	made.shader = Shader.new()
+	made.shader.code = METAL
+	assert_float(await _middle_of(made)).is_equal_approx(0.5, 0.004)
+	var path := create_temp_dir("own_shaders").path_join("material.tres")
+	assert_int(ResourceSaver.save(made, path)).is_equal(OK)
+	# The engine saves numbers of all parameters, those of the light as they are without one.
+	var text := FileAccess.get_file_as_string(path)
+	assert_str(text).contains("shader_parameter/lobelight_environment_energy = 0.0")
+	for kind: String in ["Cubemap", "Texture", "Image"]:
+		assert_str(text).not_contains(kind)
+	var loaded: LobeShaderMaterial = ResourceLoader.load(
+		path, "", ResourceLoader.CACHE_MODE_IGNORE_DEEP
+	)
+	assert_float(await _middle_of(loaded)).is_equal_approx(0.5, 0.004)
+	var plain := _own(METAL)
+	await _middle_of(plain)
+	assert_int(ResourceSaver.save(plain, path)).is_equal(OK)
+	plain = ResourceLoader.load(path, "", ResourceLoader.CACHE_MODE_IGNORE_DEEP)
+	LobeLight.bind(plain)
+	assert_float(await _middle_of(plain)).is_equal_approx(0.5, 0.004)
+	var copy: LobeShaderMaterial = loaded.duplicate()
+	assert_float(await _middle_of(copy)).is_equal_approx(0.5, 0.004)
+
+
+func test_includes_may_be_relative() -> void:
+	# The variants that lights ask for are no files.
+	var folder := create_temp_dir("own_shaders")
+	var include := FileAccess.open(folder.path_join("half.gdshaderinc"), FileAccess.WRITE)
+	include.store_string("const float HALF = 0.5;\n")
+	include.close()
+	var path := folder.path_join("metal.gdshader")
+	var file := FileAccess.open(path, FileAccess.WRITE)
+	var code := METAL.replace("void fragment", '#include "half.gdshaderinc"\n\nvoid fragment')
+	file.store_string(code.replace("vec3(1.0)", "vec3(2.0 * HALF)"))
+	file.close()
+	_environment.panorama = Kit.constant(0.5)
+	await _environment.rebuild()
+	var made := LobeShaderMaterial.new()
+	made.shader = load(path)
+	# From a box, which takes another variant.
+	made.light = LobeLight.make_constant(Color(0.125, 0.125, 0.125), false)
+	assert_float(await _middle_of(made)).is_equal_approx(0.125, 0.002)
+	assert_str(_shown_code(made)).contains("#define LOBELIGHT_STRETCHED_LEVELS")
+
+
+func test_nothing_is_kept_of_what_has_gone() -> void:
+	var before: int = LightRegistry._materials.size()
+	var bindings: int = Binding._bindings.size()
+	var all := _make_on_threads()
+	assert_int(LightRegistry._materials.size()).is_equal(before + 80)
+	# Some have been updated when they go, some not.
+	all.resize(30)
+	await await_idle_frame()
+	await await_idle_frame()
+	all.clear()
+	assert_int(LightRegistry._materials.size()).is_equal(before)
+	assert_int(Binding._bindings.size()).is_equal(bindings)
+
+
+func test_shaders_that_do_not_include_it_are_named() -> void:
+	var material := ShaderMaterial.new()
+	material.shader = Shader.new()
+	material.shader.code = "shader_type spatial;\nvoid fragment() {}\n"
+	var bind := func() -> void:
+		LobeLight.bind(material)
+		await await_idle_frame()
+		await await_idle_frame()
+	await assert_error(bind).is_push_error(
+		(
+			"LobeLight.bind: the shader of a material does not include"
+			+ " res://addons/lobelight/lobelight.gdshaderinc."
+		)
+	)
+	LobeLight.unbind(material)
+	await (
+		assert_error(func() -> void: LobeLight.bind(null))
+		. is_push_error("LobeLight.bind: there is no material.")
+	)
+
+
+# Not in tests/runtime: the storage of the engine's headless renderer is not made for threads.
+func _make_on_threads() -> Array[ShaderMaterial]:
+	var make := func() -> Array[ShaderMaterial]:
+		var made: Array[ShaderMaterial] = []
+		for i in 20:
+			made.append(_own(METAL) if i % 2 == 0 else LobeShaderMaterial.new())
+		return made
+	var threads: Array[Thread] = []
+	for i in 4:
+		threads.append(Thread.new())
+		threads[i].start(make)
+	var all: Array[ShaderMaterial] = []
+	for thread in threads:
+		all.append_array(thread.wait_to_finish())
+	return all
 
 
 func _light_up(sun: float) -> void:
@@ -101,6 +267,17 @@ func _light_up(sun: float) -> void:
 	# Sources are found while frames are drawn.
 	for frame in 8:
 		await _view.capture()
+
+
+static func _own_surface(
+	roughness: float, anisotropy: float, metallic: float, defines := ""
+) -> ShaderMaterial:
+	var own := _own(SHADER % defines)
+	own.set_shader_parameter(&"albedo", Color(0.9, 0.6, 0.3))
+	own.set_shader_parameter(&"metallic", metallic)
+	own.set_shader_parameter(&"roughness", roughness)
+	own.set_shader_parameter(&"anisotropy", anisotropy)
+	return own
 
 
 static func _own(code: String) -> ShaderMaterial:
@@ -138,3 +315,14 @@ func _compare(own: Material, ready: Material) -> void:
 				largest = maxf(largest, absf(minf(one[channel], 1.0) - minf(other[channel], 1.0)))
 	assert_float(mean).is_greater(0.05)
 	assert_float(largest).is_less(1.01 * STEP)
+
+
+func _middle_of(material: Material) -> float:
+	(_sphere.mesh as PrimitiveMesh).material = material
+	await _view.capture()
+	var image: Image = await _view.capture()
+	return image.get_pixel(SIDE / 2, SIDE / 2).r
+
+
+static func _shown_code(material: ShaderMaterial) -> String:
+	return (Binding._find(material)._get_shown() as Shader).code

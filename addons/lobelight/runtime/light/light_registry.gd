@@ -83,6 +83,14 @@ static func add_material(material: RID, other_variant: Callable) -> void:
 	_mutex.unlock()
 
 
+## Hands the material its light once more.
+static func apply_again(material: RID) -> void:
+	_mutex.lock()
+	if _materials.has(material):
+		_apply(material)
+	_mutex.unlock()
+
+
 static func remove_material(material: RID) -> void:
 	_mutex.lock()
 	_materials.erase(material)

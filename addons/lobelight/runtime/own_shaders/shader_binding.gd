@@ -129,6 +129,8 @@ func _update() -> void:
 	if not defines.is_empty():
 		_variant = ShaderVariants.fetch(_get_code(defines))
 	RenderingServer.material_set_shader(_rid, _get_shown().get_rid())
+	# Files of materials have what their shaders' parameters were, the light's too.
+	LightRegistry.apply_again(_rid)
 
 
 func _get_shown() -> Shader:
@@ -230,7 +232,10 @@ func _complain(material: ShaderMaterial) -> void:
 	_is_told = true
 	push_error(
 		(
-			"LobeLight.bind: the shader of %s does not include res://addons/lobelight/lobelight.gdshaderinc."
+			(
+				"LobeLight.bind: the shader of %s does not include"
+				+ " res://addons/lobelight/lobelight.gdshaderinc."
+			)
 			% (material.resource_path if material.resource_path else "a material")
 		)
 	)
