@@ -2,6 +2,7 @@
 // name; what is missing is 0. Recipes that are accepted and small are fitted.
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -22,9 +23,14 @@ namespace {
 struct Fields {
   std::uint8_t is_set, method, refine, widths;
   std::int32_t lobes, views_x, views_y, threads;
+  std::uint32_t placement;
   std::uint64_t seed;
-  double alpha_x, alpha_y;
+  double alpha_x, alpha_y, reach;
 };
+
+// What `placement` says, modulo three.
+enum : std::uint32_t { kAutomatic, kEm, kArc };
+constexpr std::array kPlacements{Placement::automatic, Placement::em, Placement::arc};
 
 constexpr int kMostTexels = 24;
 constexpr std::size_t kMostWidths = 80;
@@ -68,11 +74,14 @@ void check_set(const SetRecipe& recipe) {
 std::vector<Bytes> seeds() {
   const double width = 0.3;
   return {
-      bytes_of({0, 1, 0, 0, 2, 3, 1, 1, 7, width, width}, {}, "ggx"),
-      bytes_of({0, 1, 1, 0, 1, 2, 2, 2, 0, 0.1, width}, {}, "ward"),
-      bytes_of({0, 0, 0, 0, 3, 2, 2, 0, 1, 1.0, 0.01}, {}, "ward_bounded"),
-      bytes_of({0, 1, 0, 0, 32, 256, 256, 0, 1, 0.0, 0.0}, {}, "file.binary"),
-      bytes_of({1, 0, 0, 3, 4, 16, 8, 0, 1, 0.0, 0.0}, {0.1, 0.2, 0.4}, "ggx"),
+      bytes_of({0, 1, 0, 0, 2, 3, 1, 1, kEm, 7, width, width, 0.0}, {}, "ggx"),
+      bytes_of({0, 1, 0, 0, 3, 3, 1, 1, kAutomatic, 7, width, width, 0.0}, {}, "ggx"),
+      bytes_of({0, 1, 1, 0, 1, 2, 2, 2, kEm, 0, 0.1, width, 0.0}, {}, "ward"),
+      bytes_of({0, 0, 0, 0, 3, 2, 2, 0, kAutomatic, 1, 1.0, 0.01, 0.0}, {}, "ward_bounded"),
+      bytes_of({0, 1, 0, 0, 3, 2, 2, 1, kArc, 1, 1.0, 0.01, 2.0}, {}, "ward"),
+      bytes_of({0, 1, 0, 0, 2, 2, 3, 1, kArc, 1, 0.02, width, 0.0}, {}, "ggx"),
+      bytes_of({0, 1, 0, 0, 32, 256, 256, 0, kAutomatic, 1, 0.0, 0.0, 0.0}, {}, "file.binary"),
+      bytes_of({1, 0, 0, 3, 4, 16, 8, 0, kAutomatic, 1, 0.0, 0.0, 0.0}, {0.1, 0.2, 0.4}, "ggx"),
   };
 }
 
@@ -110,6 +119,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     recipe.views = {fields.views_x, fields.views_y};
     recipe.method = fields.method != 0 ? FitMethod::continuation : FitMethod::independent;
     recipe.refine = fields.refine != 0;
+    recipe.placement = fuzz::kPlacements[fields.placement % fuzz::kPlacements.size()];
+    recipe.reach = fields.reach;
     recipe.seed = fields.seed;
     recipe.threads = fields.threads;
     fuzz::check_table(recipe);

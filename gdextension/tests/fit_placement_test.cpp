@@ -123,13 +123,19 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("What is not long is EM's to the last bit, and so are independent fits") {
-  for (const glm::dvec2& alpha : {glm::dvec2(0.1, 0.1), glm::dvec2(0.1, 0.3)}) {
+TEST_CASE(
+    "What is not long or has few lobes is EM's to the last bit, and so are independent fits") {
+  struct Case {
+    glm::dvec2 alpha;
+    int lobes;
+  };
+  for (const Case& of : {Case{{0.1, 0.1}, 7}, Case{{0.02, 0.2}, 8}, Case{{0.01, 0.2}, 7}}) {
     for (const FitMethod method : {FitMethod::independent, FitMethod::continuation}) {
       Recipe recipe = long_recipe("ward", Placement::automatic);
-      recipe.alpha = alpha;
+      recipe.alpha = of.alpha;
+      recipe.lobes = of.lobes;
       recipe.method = method;
-      recipe.views.y = alpha.x == alpha.y ? 1 : 4;
+      recipe.views.y = of.alpha.x == of.alpha.y ? 1 : 4;
       const auto automatic = fit(recipe).to_rgba16f();
       recipe.placement = Placement::em;
       CHECK(fit(recipe).to_rgba16f() == automatic);
@@ -161,6 +167,7 @@ TEST_CASE("Arcs have the energy of their views, whatever the model") {
 TEST_CASE("Arcs do not depend on the threads, and reach as far as they are told") {
   for (const Placement placement : {Placement::automatic, Placement::arc}) {
     Recipe recipe = long_recipe("ggx", placement);
+    recipe.lobes = 8;
     recipe.threads = 1;
     const auto one = fit(recipe).to_rgba16f();
     recipe.threads = 3;

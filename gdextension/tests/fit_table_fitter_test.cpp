@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -13,6 +14,19 @@
 
 namespace lobelight {
 namespace {
+
+// Notes how far the work says it is whenever it asks whether it should go on.
+class NotedProgress : public Progress {
+ public:
+  bool cancelled() const noexcept override {
+    noted_.insert(fraction());
+    return Progress::cancelled();
+  }
+  const std::set<double>& noted() const { return noted_; }
+
+ private:
+  mutable std::set<double> noted_;
+};
 
 Recipe small_recipe(const char* brdf, const glm::dvec2& alpha, FitMethod method) {
   Recipe recipe;
@@ -201,6 +215,25 @@ TEST_CASE("Views take the documented defaults") {
   CHECK(resolve_views(recipe) == glm::ivec2(16, 8));
   recipe.views = {0, 4};
   CHECK(resolve_views(recipe) == glm::ivec2(16, 4));
+}
+
+TEST_CASE("The progress moves while lobes are placed otherwise than by EM") {
+  Recipe arcs = small_recipe("ward", {0.02, 0.3}, FitMethod::continuation);
+  arcs.placement = Placement::arc;
+  const Recipe squares = small_recipe("ggx", {0.5, 0.5}, FitMethod::continuation);
+  for (Recipe recipe : {arcs, squares}) {
+    recipe.threads = 1;
+    NotedProgress progress;
+    fit_table(recipe, progress, nullptr);
+    CHECK(*progress.noted().rbegin() < 1.0);
+    double before = 0.0;
+    for (const double now : progress.noted()) {
+      CHECK(now - before < 0.26);
+      before = now;
+    }
+    CHECK(before > 0.7);
+    CHECK(progress.fraction() == 1.0);
+  }
 }
 
 TEST_CASE("Progress rises to one, and a cancelled bake stops") {

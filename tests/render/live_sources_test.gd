@@ -4,6 +4,8 @@ extends GdUnitTestSuite
 
 const Kit := preload("support/render_kit.gd")
 const SkyKit := preload("support/sky_kit.gd")
+const CanvasPass := preload("res://addons/lobelight/runtime/pyramid/canvas_pass.gd")
+const HandedSources := preload("res://addons/lobelight/runtime/pyramid/handed_sources.gd")
 const LiveLight := preload("res://addons/lobelight/runtime/live/live_light.gd")
 const SourceSearch := preload("res://addons/lobelight/runtime/live/sources/source_search.gd")
 const Pyramid := preload("res://addons/lobelight/runtime/pyramid/pyramid.gd")
@@ -248,6 +250,34 @@ func test_an_environment_has_them_some_frames_later() -> void:
 	_environment.panorama = _make({})
 	await _frames(FRAMES + 40)
 	assert_object(_environment.get_light().sources).is_null()
+
+
+func test_light_that_is_not_searched_has_none() -> void:
+	_environment.panorama = _make({SUN: 1e5})
+	await _frames(FRAMES)
+	var live: LiveLight = _environment.get(&"_live")
+	assert_bool(live.source.takes_sources()).is_true()
+	# Bytes are not linear, and hold no sun.
+	var bytes := Image.create_empty(8, 4, false, Image.FORMAT_RGB8)
+	_environment.panorama = ImageTexture.create_from_image(bytes)
+	await _frames(2)
+	assert_object(live.chain.search).is_null()
+	assert_bool(live.source.takes_sources()).is_false()
+	assert_object(_environment.get_light().sources).is_null()
+
+
+func test_an_answer_that_cannot_be_read_is_none() -> void:
+	if RenderingServer.get_rendering_device() != null:
+		# Compatibility's alone.
+		return
+	_environment.panorama = _make({SUN: 1e5})
+	await _frames(FRAMES)
+	var live: LiveLight = _environment.get(&"_live")
+	var handed := live.chain.search.get(&"handed") as HandedSources
+	handed.set(&"_drawn", CanvasPass.new(Vector2i(4, 4), true))
+	handed.take_answer()
+	handed.receive()
+	assert_int(handed.take_answer()).is_equal(HandedSources.Answer.UNKNOWN)
 
 
 func test_the_memory_for_the_search_is_given_back() -> void:

@@ -125,6 +125,7 @@ std::vector<Piece> cut(const Strip& strip, bool ggx, double reach, int count) {
 std::vector<Piece> gather(const std::vector<Piece>& pieces, double step, double evenness,
                           int count) {
   std::vector<double> measure;
+  measure.reserve(pieces.size());
   double whole = 0.0;
   for (const Piece& piece : pieces) {
     measure.push_back(piece.weight > 0.0 && piece.length > 0.0
@@ -195,6 +196,7 @@ Mixture arc_lobes(const Brdf& brdf, const glm::dvec3& o, int lobes, const ArcSha
   double added = 0.0;  // by the lobes' widths, less what the places within cells have
   double all = 0.0;    // the strip's along its axis
   std::vector<double> variance;
+  variance.reserve(cells.size());
   for (const Piece& cell : cells) {
     const double a = cell.place;
     const double per_step = std::max(strip.length_per_step(a, cell.aside), 1e-9);
@@ -211,6 +213,7 @@ Mixture arc_lobes(const Brdf& brdf, const glm::dvec3& o, int lobes, const ArcSha
     all += cell.weight * 0.5 * round;
   }
   Mixture mixture;
+  mixture.reserve(cells.size());
   if (whole > 0.0) middle /= whole;
   // A strip that is as wide as it is long has no axis: lobes then lie in its middle.
   const double left = all > 0.0 ? 1.0 - shape.drawing_in * std::max(0.0, added / all) : 1.0;

@@ -191,7 +191,7 @@ double show(double exposed) { return std::pow(std::clamp(exposed, 0.0, 1.0), 1.0
 }  // namespace
 
 PictureError::PictureError(const Brdf& brdf, const glm::ivec2& views, int threads,
-                           const Progress& progress)
+                           Progress& progress)
     : threads_(threads), progress_(progress) {
   const LobeTable grid(brdf.alpha(), 1, views);
   int n = 0;
@@ -215,6 +215,7 @@ PictureError::PictureError(const Brdf& brdf, const glm::ivec2& views, int thread
   }
   for (std::size_t light = 0; light < kLights; ++light) {
     const LightMap map(made_up_light(light), threads, progress);
+    progress.set((static_cast<double>(light) + 0.5) / kLights);
     parallel_for(views_.size(), threads, progress, [&](std::size_t i) {
       View& view = views_[i];
       const Slice slice = sample_slice(brdf, view.direction, kNodesPerAxis, kRotation);
@@ -237,6 +238,7 @@ PictureError::PictureError(const Brdf& brdf, const glm::ivec2& views, int thread
         view.samples[turn].shown = show(exposures_[light] * view.samples[turn].shown);
       }
     }
+    progress.set((static_cast<double>(light) + 1.0) / kLights);
   }
 }
 

@@ -31,8 +31,8 @@ struct PictureErrors {
 class PictureError {
  public:
   // For tables with `views`. Throws Cancelled. `threads` as for parallel_for(); the result does not
-  // depend on it.
-  PictureError(const Brdf& brdf, const glm::ivec2& views, int threads, const Progress& progress);
+  // depend on it. `progress`, which must outlive the object, is that of making it.
+  PictureError(const Brdf& brdf, const glm::ivec2& views, int threads, Progress& progress);
 
   // Throws Cancelled.
   PictureErrors operator()(const LobeTable& table) const;

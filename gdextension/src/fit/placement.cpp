@@ -16,8 +16,11 @@ namespace lobelight {
 
 namespace {
 
-// Of the two widths.
-constexpr double kLeastArcRatio = 5.0;
+// Of the two widths, and of lobes. Arcs of rounder highlights are as good as EM's lobes under small
+// lamps, and the made-up lights are of that kind; under skies and in rooms they are worse by 1 to 4
+// dB at ratios of 5 to 10, and fewer lobes leave gaps along the highlight that cost as much.
+constexpr double kLeastArcRatio = 12.0;
+constexpr int kFewestArcLobes = 8;
 
 bool is_long(const glm::dvec2& alpha) {
   return std::max(alpha.x, alpha.y) >= kLeastArcRatio * std::min(alpha.x, alpha.y);
@@ -66,12 +69,12 @@ Placement placement_from_string(std::string_view name) {
   throw std::invalid_argument(sentence.str());
 }
 
-bool arcs_may_win(std::string_view brdf, const glm::dvec2& alpha) {
-  return has_arc(brdf, alpha) && is_long(alpha);
+bool arcs_may_win(std::string_view brdf, const glm::dvec2& alpha, int lobes) {
+  return lobes >= kFewestArcLobes && has_arc(brdf, alpha) && is_long(alpha);
 }
 
 ArcTable fit_arcs(const Brdf& brdf, const LobeTable& model, double reach, const PictureError& error,
-                  const PictureErrors* others, int threads, const Progress& progress) {
+                  const PictureErrors* others, int threads, Progress& progress) {
   const bool ggx = brdf.name() == "ggx";
   const std::vector<double> reaches = reach > 0.0 ? std::vector<double>{reach}
                                       : ggx       ? std::vector<double>{6.0, 8.5, 12.0}
@@ -80,9 +83,11 @@ ArcTable fit_arcs(const Brdf& brdf, const LobeTable& model, double reach, const 
   double least = 0.0;
   PictureErrors yardstick;
   if (others) yardstick = *others;
+  int tried = 0;
   for (const double candidate : reaches) {
     LobeTable table = arc_table(brdf, model, arc_shape(brdf, candidate), threads, progress);
     const PictureErrors own = error(table);
+    progress.set(static_cast<double>(++tried) / static_cast<double>(reaches.size()));
     if (!best && !others) yardstick = own;
     // Under the light that it is the worse for.
     const double worse = std::max(own.lamps / yardstick.lamps, own.windows / yardstick.windows);

@@ -25,8 +25,9 @@ Placement placement_from_string(std::string_view name);
 constexpr double kLeastReach = 0.5;
 constexpr double kGreatestReach = 32.0;
 
-// Whether `automatic` looks at arcs at all: rounder highlights are always the better served by EM.
-bool arcs_may_win(std::string_view brdf, const glm::dvec2& alpha);
+// Whether `automatic` looks at arcs at all: rounder highlights and few lobes are always the better
+// served by EM.
+bool arcs_may_win(std::string_view brdf, const glm::dvec2& alpha, int lobes);
 
 struct ArcTable {
   LobeTable table;
@@ -39,6 +40,6 @@ struct ArcTable {
 // may be null, under the light where the arcs fare worse. All views have one shape, so
 // that neighbouring ones can be interpolated.
 ArcTable fit_arcs(const Brdf& brdf, const LobeTable& model, double reach, const PictureError& error,
-                  const PictureErrors* others, int threads, const Progress& progress);
+                  const PictureErrors* others, int threads, Progress& progress);
 
 }  // namespace lobelight

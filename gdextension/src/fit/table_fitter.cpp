@@ -64,8 +64,11 @@ void fit_independently(const Brdf& brdf, const Recipe& recipe, const FitOptions&
   });
 }
 
-// Of the progress of a fit that also looks at arcs.
-constexpr double kArcShare = 0.1;
+// Of the progress of a fit that also looks at arcs, or at lobes by least squares; and of the
+// former, what the light costs that arcs are judged by.
+constexpr double kArcShare = 0.25;
+constexpr double kSquaresShare = 0.5;
+constexpr double kLightShare = 0.5;
 // Arcs take the place of EM's lobes where they are clearly better under both lights: what errors
 // say of other lights is no more exact.
 bool is_clearly_better(const PictureErrors& arcs, const PictureErrors& em) {
@@ -115,7 +118,7 @@ void report_arcs(const Brdf& brdf, const Recipe& recipe, const FitOptions& optio
 bool looks_at_arcs(const Recipe& recipe, std::string_view brdf, const glm::dvec2& alpha) {
   if (recipe.placement == Placement::arc) return true;
   return recipe.placement == Placement::automatic && recipe.method == FitMethod::continuation &&
-         !recipe.refine && arcs_may_win(brdf, alpha);
+         !recipe.refine && arcs_may_win(brdf, alpha, recipe.lobes);
 }
 
 std::string_view to_string(FitMethod method) {
@@ -230,26 +233,35 @@ LobeTable fit_table(const Brdf& brdf, const Recipe& recipe, Progress& progress, 
   used.log_likelihood.assign(views, 0.0);
   progress.set(0.0);
   const bool arcs = looks_at_arcs(recipe, brdf.name(), brdf.alpha());
-  Progress em(progress, arcs ? 1.0 - kArcShare : 1.0);
-  if (recipe.placement == Placement::arc) {
+  const bool alone = recipe.placement == Placement::arc;
+  const bool squares = recipe.placement == Placement::automatic &&
+                       recipe.method == FitMethod::continuation && !recipe.refine &&
+                       is_wide(brdf, table);
+  Progress em(progress, alone || !(arcs || squares) ? 1.0
+                        : arcs                      ? 1.0 - kArcShare
+                                                    : 1.0 - kSquaresShare);
+  if (alone) {
     table = albedos(brdf, recipe, options, table, progress);
   } else if (recipe.method == FitMethod::independent) {
     fit_independently(brdf, recipe, options, table, em, used);
   } else {
     const Continuation how{brdf, recipe.seed, recipe.threads, recipe.refine, options};
     continue_over_views(how, {}, neighbours_lobes(table), table, em, &used);
-    if (recipe.placement == Placement::automatic && !recipe.refine && is_wide(brdf, table)) {
-      const SliceNodes nodes{options.nodes_per_axis, seed_rotation(recipe.seed)};
-      used.is_by_squares = fit_wide_lobes(brdf, nodes, table, progress);
-    }
+  }
+  if (squares) {
+    const SliceNodes nodes{options.nodes_per_axis, seed_rotation(recipe.seed)};
+    Progress part(progress, kSquaresShare);
+    used.is_by_squares = fit_wide_lobes(brdf, nodes, table, part);
   }
   if (arcs) {
-    const PictureError error(brdf, table.views(), recipe.threads, progress);
-    const bool alone = recipe.placement == Placement::arc;
+    Progress part(progress, alone ? 1.0 : kArcShare);
+    Progress light(part, kLightShare);
+    Progress tables(part, 1.0 - kLightShare);
+    const PictureError error(brdf, table.views(), recipe.threads, light);
     PictureErrors likely;
     if (!alone) likely = error(table);
     ArcTable found = fit_arcs(brdf, table, recipe.reach, error, alone ? nullptr : &likely,
-                              recipe.threads, progress);
+                              recipe.threads, tables);
     if (alone || is_clearly_better(found.errors, likely)) {
       report_arcs(brdf, recipe, options, found, progress, used);
       table = std::move(found.table);

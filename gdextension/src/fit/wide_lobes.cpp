@@ -287,8 +287,12 @@ bool is_wide(const Brdf& brdf, const LobeTable& table) {
 }
 
 bool fit_wide_lobes(const Brdf& brdf, const SliceNodes& nodes, LobeTable& table,
-                    const Progress& progress) {
+                    Progress& progress) {
   const int views = table.views().x;
+  const int steps = kStarts + views;
+  int done = 0;
+  // The two errors at the end take little beside them.
+  const auto step = [&] { progress.set(static_cast<double>(++done) / (steps + 1)); };
   std::vector<WideSlice> slices;
   for (int t = 0; t < views; ++t) {
     slices.push_back(wide_slice(brdf, nodes, table.view(t, 0)));
@@ -322,6 +326,7 @@ bool fit_wide_lobes(const Brdf& brdf, const SliceNodes& nodes, LobeTable& table,
       x[lobes + k] = std::log(std::clamp(0.5 * brdf.alpha().x, 0.03, 0.4)) + 1.4 * spread(0.754878);
     }
     const double error = start.improve(x, kFirstSteps, progress);
+    step();
     if (n == 0 || error < least) {
       least = error;
       best = std::move(x);
@@ -335,11 +340,14 @@ bool fit_wide_lobes(const Brdf& brdf, const SliceNodes& nodes, LobeTable& table,
       for (std::size_t k = 0; k < lobes; ++k) x[k] -= 0.5 * turn;
       const WideView view(slices[static_cast<std::size_t>(t)].wanted, table.elevation(t), x);
       view.improve(x, kSteps, progress);
+      step();
       store(t, x);
     }
   }
   const double error = table_error(brdf, nodes, result, progress);
-  if (!(error < table_error(brdf, nodes, table, progress))) return false;
+  const bool better = error < table_error(brdf, nodes, table, progress);
+  progress.set(1.0);
+  if (!better) return false;
   table = std::move(result);
   return true;
 }

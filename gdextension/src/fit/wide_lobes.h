@@ -31,6 +31,6 @@ struct SliceNodes {
 // Fits the lobes of all views again, each view from its neighbour's, and keeps them where the error
 // between the views is smaller as well; returns whether it is. is_wide() holds. Throws Cancelled.
 bool fit_wide_lobes(const Brdf& brdf, const SliceNodes& nodes, LobeTable& table,
-                    const Progress& progress);
+                    Progress& progress);
 
 }  // namespace lobelight

@@ -24,8 +24,8 @@ func draw() -> void:
 
 func receive() -> void:
 	var image := RenderingServer.texture_2d_get(_drawn.get_texture())
+	# What could not be read says nothing: the last sources stay.
 	if image == null or image.get_format() != Image.FORMAT_RGBA8:
-		_answer = Answer.NONE
 		return
 	var data := image.get_data()
 	_answer = find_answer(data)

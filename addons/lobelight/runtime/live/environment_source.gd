@@ -107,6 +107,7 @@ func make_chain(chain: PyramidChain) -> PyramidChain:
 	if _kind == Kind.EVEN:
 		_light = null if key != _key else _light
 		_key = key
+		_forget_sources()
 		return null
 	if chain != null and key == _key:
 		if chain.views != null:
@@ -150,6 +151,8 @@ func make_chain(chain: PyramidChain) -> PyramidChain:
 			panorama.changed.connect(_settings.on_panorama_changed)
 	if chain.search != null:
 		(chain.search as SourceSearch).take_out(_takes_sources)
+	else:
+		_forget_sources()
 	chain.make_cube(old)
 	if _settings.measure_cost:
 		chain.measure()
@@ -253,6 +256,12 @@ func leave_world() -> bool:
 	# That world may go on showing it.
 	_light = null
 	return true
+
+
+# Where nothing is searched, no answer would ever say that they have gone.
+func _forget_sources() -> void:
+	_takes_sources = false
+	_gone = 0
 
 
 func _find_kind() -> Kind:
