@@ -21,7 +21,7 @@ namespace {
 Recipe long_recipe(const char* brdf, Placement placement) {
   Recipe recipe;
   recipe.brdf = brdf;
-  recipe.alpha = {0.02, 0.3};
+  recipe.alpha = {0.015, 0.3};
   recipe.lobes = 7;
   recipe.views = {6, 4};
   recipe.placement = placement;
@@ -129,7 +129,8 @@ TEST_CASE(
     glm::dvec2 alpha;
     int lobes;
   };
-  for (const Case& of : {Case{{0.1, 0.1}, 7}, Case{{0.02, 0.2}, 8}, Case{{0.01, 0.2}, 7}}) {
+  for (const Case& of :
+       {Case{{0.1, 0.1}, 7}, Case{{0.02, 0.3}, 8}, Case{{0.01, 0.2}, 7}, Case{{0.005, 0.5}, 10}}) {
     for (const FitMethod method : {FitMethod::independent, FitMethod::continuation}) {
       Recipe recipe = long_recipe("ward", Placement::automatic);
       recipe.alpha = of.alpha;

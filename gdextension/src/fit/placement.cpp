@@ -18,13 +18,10 @@ namespace {
 
 // Of the two widths, and of lobes. Arcs of rounder highlights are as good as EM's lobes under small
 // lamps, and the made-up lights are of that kind; under skies and in rooms they are worse by 1 to 4
-// dB at ratios of 5 to 10, and fewer lobes leave gaps along the highlight that cost as much.
-constexpr double kLeastArcRatio = 12.0;
+// dB at ratios of 5 to 15, and fewer lobes leave gaps along the highlight that cost as much.
+constexpr double kLeastArcRatio = 18.0;
 constexpr int kFewestArcLobes = 8;
-
-bool is_long(const glm::dvec2& alpha) {
-  return std::max(alpha.x, alpha.y) >= kLeastArcRatio * std::min(alpha.x, alpha.y);
-}
+constexpr double kMostArcRatioPerLobe = 5.0;
 
 LobeTable arc_table(const Brdf& brdf, const LobeTable& model, const ArcShape& shape, int threads,
                     const Progress& progress) {
@@ -70,7 +67,10 @@ Placement placement_from_string(std::string_view name) {
 }
 
 bool arcs_may_win(std::string_view brdf, const glm::dvec2& alpha, int lobes) {
-  return lobes >= kFewestArcLobes && has_arc(brdf, alpha) && is_long(alpha);
+  const double narrow = std::min(alpha.x, alpha.y);
+  const double wide = std::max(alpha.x, alpha.y);
+  return has_arc(brdf, alpha) && wide >= kLeastArcRatio * narrow && lobes >= kFewestArcLobes &&
+         wide <= kMostArcRatioPerLobe * lobes * narrow;
 }
 
 ArcTable fit_arcs(const Brdf& brdf, const LobeTable& model, double reach, const PictureError& error,
