@@ -287,12 +287,14 @@ run_renderers() {
   judge renderers
 }
 
-# The judge of the runners, and what ./dev lint finds in the run time.
+# The judge of the runners, and what ./dev lint finds in the run time and its shaders.
 run_harness() {
   run_logged harness in_time "$PYTHON" "$ROOT/tools/testing/results_test.py"
   judge harness
   run_logged arrows in_time "$PYTHON" "$ROOT/tools/lint/arrows_test.py"
   judge arrows
+  run_logged shader-names in_time "$PYTHON" "$ROOT/tools/lint/shader_names_test.py"
+  judge shader-names
 }
 
 # The stand-in for gdUnit4.
