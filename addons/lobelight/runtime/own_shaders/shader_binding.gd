@@ -32,10 +32,19 @@ const _INCLUDES: Array[ShaderInclude] = [
 const _LIGHT := "lobelight_environment"
 const _TABLE := "lobelight_table"
 const _PREFIX := "lobelight_"
+# What nodes of visual shaders end the lines with that need round lobes alone
+# (../visual_shader/light_node.gd).
+const _ROUND := "// LOBELIGHT_ROUND"
+# What they include in place of the file, which is put before the graph's parameters.
+const _NODES := "res://addons/lobelight/runtime/visual_shader/nodes.gdshaderinc"
+const _FILE := "res://addons/lobelight/lobelight.gdshaderinc"
 
 # By the materials' RIDs.
 static var _bindings: Dictionary[RID, WeakRef] = {}
 static var _mutex := Mutex.new()
+static var _asking := RegEx.create_from_string(
+	"\\blobelight_(reflection|surface)\\(|#(include|define)(?!.*%s)" % _NODES.get_file()
+)
 static var _included := RegEx.create_from_string('(?m)^(\\s*#include\\s+")([^"]+)"')
 
 var _material: WeakRef
@@ -120,14 +129,16 @@ func _update() -> void:
 		_variant = null
 		return
 	var parameters := _list_parameters(_shader)
-	if not parameters.has(_LIGHT):
+	var is_graph := _NODES in _shader.code
+	if not is_graph and not parameters.has(_LIGHT):
 		_complain(material)
 		return
-	_give_lobes(parameters[_TABLE] if parameters.has(_TABLE) else "")
 	var defines := _find_defines()
 	_variant = null
-	if not defines.is_empty():
+	if is_graph or not defines.is_empty():
 		_variant = ShaderVariants.fetch(_get_code(defines))
+		parameters = _list_parameters(_variant)
+	_give_lobes(parameters[_TABLE] if parameters.has(_TABLE) else "")
 	RenderingServer.material_set_shader(_rid, _get_shown().get_rid())
 	# Files of materials have what their shaders' parameters were, the light's too.
 	LightRegistry.apply_again(_rid)
@@ -206,7 +217,19 @@ func _find_defines() -> PackedStringArray:
 			defines.append("QUALITY 8")
 	if tables != null and tables.lobe_count != 8:
 		defines.append("LOBES %d" % tables.lobe_count)
+	if _is_round(_shader.code):
+		defines.append("ISOTROPIC")
 	return defines
+
+
+# Whether all that asks for lobes is nodes that say so; other code may be in other files.
+static func _is_round(code: String) -> bool:
+	if _ROUND not in code:
+		return false
+	for line in code.split("\n"):
+		if _asking.search(line) != null and not line.ends_with(_ROUND):
+			return false
+	return true
 
 
 func _get_code(defines: PackedStringArray) -> String:
@@ -223,7 +246,10 @@ func _get_code(defines: PackedStringArray) -> String:
 			path = folder.path_join(path).simplify_path()
 		code += text.substr(at, found.get_start() - at) + found.get_string(1) + path + '"'
 		at = found.get_end()
-	return code + text.substr(at)
+	code += text.substr(at)
+	if _NODES in code:
+		code = code.insert(code.find(";") + 1, '\n#include "%s"' % _FILE)
+	return code
 
 
 func _complain(material: ShaderMaterial) -> void:
