@@ -143,6 +143,17 @@ func test_other_shaders_and_other_code_are_followed() -> void:
 	await _view.capture()
 
 
+func test_uniforms_may_have_any_name() -> void:
+	# The engine takes every variable for the uniform of its name.
+	_environment.panorama = Kit.constant(0.5)
+	await _environment.rebuild()
+	var uniforms := ""
+	for named: String in ["vec4 f0", "vec4 normal", "float roughness", "float energy", "vec2 widths"]:
+		uniforms += "uniform %s;\n" % named
+	var own := _own(METAL.replace("void fragment", uniforms + "\nvoid fragment"))
+	assert_float(await _middle_of(own)).is_equal_approx(0.5, 0.004)
+
+
 func test_ward_is_ward() -> void:
 	await _light_up(400.0)
 	var tables: LobeTableSet = load("res://addons/lobelight/tables/ward_8.res")
