@@ -96,7 +96,7 @@ SEARCHES_SOURCES = {
     "views_rest.gdshader",
 }
 # Nothing but an include.
-WITHOUT_ARITHMETIC = {"pyramid_panorama.gdshader", "pyramid_views.gdshader"}
+WITHOUT_ARITHMETIC = {"nodes.gdshaderinc", "pyramid_panorama.gdshader", "pyramid_views.gdshader"}
 
 
 def changed(wanted, old, new):

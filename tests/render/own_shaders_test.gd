@@ -148,7 +148,9 @@ func test_uniforms_may_have_any_name() -> void:
 	_environment.panorama = Kit.constant(0.5)
 	await _environment.rebuild()
 	var uniforms := ""
-	for named: String in ["vec4 f0", "vec4 normal", "float roughness", "float energy", "vec2 widths"]:
+	for named: String in [
+		"vec4 f0", "vec4 normal", "float roughness", "float energy", "vec2 widths"
+	]:
 		uniforms += "uniform %s;\n" % named
 	var own := _own(METAL.replace("void fragment", uniforms + "\nvoid fragment"))
 	assert_float(await _middle_of(own)).is_equal_approx(0.5, 0.004)

@@ -50,6 +50,7 @@ KNOWS = {
     "compatibility": ("pyramid",),
     "rendering_device": ("pyramid",),
     "own_shaders": ("material", "table", "light", "shaders", "diffuse", "line", "sources"),
+    "visual_shader": (),
     "live": ("light", "pyramid"),
     "skies": ("light", "pyramid"),
     "probes": ("light", "pyramid"),
