@@ -17,10 +17,12 @@ const DEFAULT_BRDF := "ggx"
 const _PART := "res://addons/lobelight/runtime/line/line.gdshaderinc"
 # Who wants no more than this wants no line.
 const _FEWEST := 8
-# Widths of this ratio are drawn by the table, and by the line from the other on; between them, by
-# both. So are widths by the narrower one: of wide ones eight lobes of a table are more exact.
-const _ROUND := 3.0
-const _LONG := 3.6
+# Widths of the first ratio are drawn by the table, and by the line from the second on; between them,
+# by both. So are widths by the narrower one: of wide ones eight lobes of a table are more exact.
+# Ward has no tails, so that these follow it further.
+const _RATIOS: Dictionary[String, Vector2] = {
+	"ggx": Vector2(3.0, 3.6), "ward": Vector2(4.5, 5.4), "ward_bounded": Vector2(4.5, 5.4)
+}
 const _NARROW := 0.06
 const _WIDE := 0.1
 # The narrowest and the widest width of a line.
@@ -40,6 +42,7 @@ var brdf := ""
 ## Whether there can be any, with other widths.
 var is_possible := false
 
+var _ratios := Vector2.ZERO
 var _most := 0
 var _can_be_narrower := false
 var _can_be_rounder := false
@@ -57,6 +60,7 @@ func choose(
 ) -> void:
 	clear()
 	is_possible = most > _FEWEST and MODELS.has(of_brdf)
+	_ratios = _RATIOS.get(of_brdf, Vector2.ZERO)
 	_most = most
 	_can_be_narrower = can_be_narrower
 	_can_be_rounder = can_be_rounder
@@ -113,9 +117,9 @@ func get_parameters(roughness: float, anisotropy: float) -> Dictionary[StringNam
 ## The same for widths of each pixel.
 func get_parameters_of_pixels() -> Dictionary[StringName, Variant]:
 	# Of logarithms to the base 2.
-	var by_ratio := log(2.0) / log(_LONG / _ROUND)
+	var by_ratio := log(2.0) / log(_ratios.y / _ratios.x)
 	var by_width := log(2.0) / log(_NARROW / _WIDE)
-	var octaves := Vector4(log(_ROUND), log(_WIDE), log(_LEAST), log(_LARGEST)) / log(2.0)
+	var octaves := Vector4(log(_ratios.x), log(_WIDE), log(_LEAST), log(_LARGEST)) / log(2.0)
 	return {
 		&"lobelight_line_count": used,
 		&"lobelight_line_widths": Vector2(octaves.z, octaves.w),
@@ -125,15 +129,16 @@ func get_parameters_of_pixels() -> Dictionary[StringName, Variant]:
 
 
 ## What of widths a line draws, from 0 to 1.
-static func get_share(roughness: float, anisotropy: float) -> float:
+func get_share(roughness: float, anisotropy: float) -> float:
 	var widths := Widths.from_roughness(maxf(roughness, 1e-3), anisotropy)
 	var narrow := minf(widths.x, widths.y)
 	var by_width := clampf(log(narrow / _WIDE) / log(_NARROW / _WIDE), 0.0, 1.0)
 	return by_width * _get_share_of_ratio(anisotropy)
 
 
-static func _get_share_of_ratio(anisotropy: float) -> float:
-	return clampf(log(get_ratio(anisotropy) / _ROUND) / log(_LONG / _ROUND), 0.0, 1.0)
+func _get_share_of_ratio(anisotropy: float) -> float:
+	var from := get_ratio(anisotropy) / _ratios.x
+	return clampf(log(from) / log(_ratios.y / _ratios.x), 0.0, 1.0)
 
 
 # Whether any pixel may.

@@ -89,8 +89,8 @@ const Widths := preload("../table/widths.gd")
 ## GGX and Ward such widths have lobes of their own, which are computed instead of looked up in a
 ## table, as many as are needed. Widths that are nearly round or both wide, all other BRDFs and
 ## materials with a [member table] are drawn with the lobes that their tables have. Between ratios
-## of 3 and 3.6, and between narrower widths of 0.06 and 0.1, both are drawn, so that nothing is
-## seen of the change.
+## of 3 and 3.6 (of Ward, 4.5 and 5.4), and between narrower widths of 0.06 and 0.1, both are drawn,
+## so that nothing is seen of the change.
 @export_custom(PROPERTY_HINT_ENUM, _QUALITIES) var quality := Quality.AUTOMATIC:
 	set(value):
 		quality = value
