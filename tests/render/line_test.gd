@@ -6,6 +6,7 @@ const Kit := preload("support/render_kit.gd")
 const Bench := preload("support/comparator_bench.gd")
 const ComparatorKit := preload("support/comparator_kit.gd")
 const LineChoice := preload("res://addons/lobelight/runtime/material/line_choice.gd")
+const Widths := preload("res://addons/lobelight/runtime/table/widths.gd")
 
 const MATERIALS := [["ward", 0.02, 0.2], ["ward_bounded", 0.2, 0.02], ["ggx", 0.02, 0.2]]
 # Of the albedo, where the view is less than 63 degrees off the normal.
@@ -85,6 +86,18 @@ func test_the_number_of_lobes_goes_by_the_widths() -> void:
 		material.quality = LobeMaterial3D.Quality.LOBES_8
 		assert_int(material.get_fetches()["environment"]).is_equal(8)
 		assert_bool("LOBELIGHT_LINE" in material.get_shader_code()).is_false()
+
+
+func test_tables_of_ward_go_further() -> void:
+	for case: Array in [["ggx", 4.0, 12], ["ward", 4.0, 0], ["ward", 6.0, 16]]:
+		var choice := LineChoice.new()
+		var widths := Widths.to_roughness(Vector2(0.04, 0.04 * case[1]))
+		choice.choose(case[0], widths.x, widths.y, 40)
+		assert_int(choice.count).append_failure_message(str(case)).is_equal(case[2])
+		# Where widths are those of pixels, as well.
+		var fade: Vector4 = choice.get_parameters_of_pixels(case[0])[&"lobelight_line_fade"]
+		var share := fade.x * log(case[1]) / log(2.0) + fade.y
+		assert_bool(share > 0.0).append_failure_message(str(case)).is_equal(case[2] > 0)
 
 
 func test_no_step_is_seen() -> void:

@@ -17,9 +17,9 @@ const DEFAULT_BRDF := "ggx"
 const _PART := "res://addons/lobelight/runtime/line/line.gdshaderinc"
 # Who wants no more than this wants no line.
 const _FEWEST := 8
-# Widths of the first ratio are drawn by the table, and by the line from the second on; between them,
-# by both. So are widths by the narrower one: of wide ones eight lobes of a table are more exact.
-# Ward has no tails, so that these follow it further.
+# Widths of the first ratio are drawn by the table, and by the line from the second on; between
+# them, by both. So are widths by the narrower one: of wide ones eight lobes of a table are more
+# exact. Ward has no tails, so that these follow it further.
 const _RATIOS: Dictionary[String, Vector2] = {
 	"ggx": Vector2(3.0, 3.6), "ward": Vector2(4.5, 5.4), "ward_bounded": Vector2(4.5, 5.4)
 }
@@ -60,7 +60,7 @@ func choose(
 ) -> void:
 	clear()
 	is_possible = most > _FEWEST and MODELS.has(of_brdf)
-	_ratios = _RATIOS.get(of_brdf, Vector2.ZERO)
+	_ratios = _get_ratios(of_brdf)
 	_most = most
 	_can_be_narrower = can_be_narrower
 	_can_be_rounder = can_be_rounder
@@ -115,11 +115,12 @@ func get_parameters(roughness: float, anisotropy: float) -> Dictionary[StringNam
 
 
 ## The same for widths of each pixel.
-func get_parameters_of_pixels() -> Dictionary[StringName, Variant]:
+func get_parameters_of_pixels(of_brdf: String) -> Dictionary[StringName, Variant]:
+	var ratios := _get_ratios(of_brdf)
 	# Of logarithms to the base 2.
-	var by_ratio := log(2.0) / log(_ratios.y / _ratios.x)
+	var by_ratio := log(2.0) / log(ratios.y / ratios.x)
 	var by_width := log(2.0) / log(_NARROW / _WIDE)
-	var octaves := Vector4(log(_ratios.x), log(_WIDE), log(_LEAST), log(_LARGEST)) / log(2.0)
+	var octaves := Vector4(log(ratios.x), log(_WIDE), log(_LEAST), log(_LARGEST)) / log(2.0)
 	return {
 		&"lobelight_line_count": used,
 		&"lobelight_line_widths": Vector2(octaves.z, octaves.w),
@@ -139,6 +140,10 @@ func get_share(roughness: float, anisotropy: float) -> float:
 func _get_share_of_ratio(anisotropy: float) -> float:
 	var from := get_ratio(anisotropy) / _ratios.x
 	return clampf(log(from) / log(_ratios.y / _ratios.x), 0.0, 1.0)
+
+
+static func _get_ratios(of_brdf: String) -> Vector2:
+	return _RATIOS.get(of_brdf, _RATIOS["ggx"])
 
 
 # Whether any pixel may.

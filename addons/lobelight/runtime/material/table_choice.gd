@@ -219,7 +219,7 @@ func get_line_parameters() -> Dictionary[StringName, Variant]:
 	if line.count == 0:
 		return {}
 	if is_per_pixel:
-		return line.get_parameters_of_pixels()
+		return line.get_parameters_of_pixels(line.brdf)
 	return line.get_parameters(roughness, anisotropy)
 
 

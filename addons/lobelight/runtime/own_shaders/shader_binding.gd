@@ -192,7 +192,7 @@ func _give_lobes(kind: String) -> void:
 		&"lobelight_widths": _texture.levels,
 	}
 	var line := LineChoice.new()
-	given.merge(line.get_parameters_of_pixels())
+	given.merge(line.get_parameters_of_pixels(tables.brdf))
 	for name in given:
 		RenderingServer.material_set_param(_rid, name, given[name])
 
