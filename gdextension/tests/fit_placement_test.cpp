@@ -165,6 +165,17 @@ TEST_CASE("Arcs have the energy of their views, whatever the model") {
   }
 }
 
+TEST_CASE("Arcs all of whose points would lie below the horizon lose no light") {
+  Recipe recipe = long_recipe("ggx", Placement::arc);
+  recipe.alpha = {2.0, 0.3};
+  recipe.lobes = 2;
+  recipe.reach = 12.0;
+  const auto model = make_brdf("ggx", recipe.alpha);
+  const LobeTable table = fit(recipe);
+  const double albedo = sample_slice(*model, table.view(0, 0), 256).albedo;
+  CHECK(total_weight(table.mixture_at_view(0, 0)) == doctest::Approx(albedo).epsilon(0.01));
+}
+
 TEST_CASE("Arcs do not depend on the threads, and reach as far as they are told") {
   for (const Placement placement : {Placement::automatic, Placement::arc}) {
     Recipe recipe = long_recipe("ggx", placement);

@@ -221,7 +221,9 @@ Mixture arc_lobes(const Brdf& brdf, const glm::dvec3& o, int lobes, const ArcSha
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const double place = middle + stretch * (cells[k].place - middle);
     Lobe lobe;
-    lobe.weight = whole > 0.0 ? cells[k].weight / whole * albedo : 0.0;
+    // Of the widest materials all points may lie below the horizon: lobes are in the middle then.
+    const double share = whole > 0.0 ? cells[k].weight / whole : 1.0 / lobes;
+    lobe.weight = share * albedo;
     lobe.gaussian.mean = strip.reflect(place, cells[k].aside).light;
     lobe.gaussian.kappa = 1.0 / std::max(variance[k], 1e-8);
     mixture.push_back(lobe);
