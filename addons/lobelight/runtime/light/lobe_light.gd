@@ -153,9 +153,9 @@ static func make_constant(colour: Color, even: bool) -> LobeLight:
 ## [br][br]
 ## The lobes are those of GGX, or of [param tables], a [LobeTableSet]. With [param shown] the
 ## material shows that light wherever it is, as with [member LobeMaterial3D.light]. Who is bound
-## already takes both anew. The material keeps its shader and its parameters; nothing of the light is
-## saved with it, and copies of it are not bound. [LobeShaderMaterial] binds itself, in the editor
-## too.
+## already takes both anew. The material keeps its shader and its parameters; nothing of the light
+## is saved with it, and copies of it are not bound. [LobeShaderMaterial] binds itself, in the
+## editor too.
 ## [br][br]
 ## Exports have this where a file of the project includes that file, or names this method or that
 ## class; elsewhere nothing happens but an error.
