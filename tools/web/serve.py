@@ -4,6 +4,7 @@
 import argparse
 import functools
 import http.server
+import signal
 import sys
 
 # The engine without threads needs none of these; some hosts send them all the same.
@@ -41,16 +42,16 @@ def main():
     options = parser.parse_args()
     Handler.isolated = options.isolated
     handler = functools.partial(Handler, directory=options.folder)
+    # Shells have what they start in the background ignore it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
-        server = http.server.ThreadingHTTPServer(("127.0.0.1", options.port), handler)
+        with http.server.ThreadingHTTPServer(("127.0.0.1", options.port), handler) as server:
+            print(f"http://localhost:{server.server_address[1]}/ (Ctrl-C ends)", flush=True)
+            server.serve_forever()
+    except KeyboardInterrupt:
+        print()
     except OSError as error:
         sys.exit(f"web: port {options.port} cannot be served: {error.strerror}")
-    with server:
-        print(f"http://localhost:{server.server_address[1]}/ (Ctrl-C ends)", flush=True)
-        try:
-            server.serve_forever()
-        except KeyboardInterrupt:
-            print()
 
 
 if __name__ == "__main__":
