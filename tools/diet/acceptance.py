@@ -33,6 +33,9 @@ BAKED = "baked"
 LIGHT = f"tests/diet/scenes/{BAKED}_light.res"
 # Of the panorama, in texels around.
 LIGHT_WIDTH = 2048
+OWN, OWN_ISOTROPIC = "own_shaders", "own_isotropic"
+# Where what shaders of one's own need is, and nobody else does.
+FOR_OWN = (f"{ADDON}/lobelight.gdshaderinc", f"{ADDON}/runtime/own_shaders/")
 # The scenes, as the report names them.
 SCENES = {
     "empty": "nothing of Lobelight",
@@ -42,13 +45,16 @@ SCENES = {
     "by_script": "widths set by a script, the scene's sky",
     "panorama": "one isotropic material, a panorama that nothing else shows",
     BAKED: "one isotropic material, a baked light",
+    OWN: "shaders of one's own, one of them anisotropic",
+    OWN_ISOTROPIC: "an isotropic shader of one's own",
     # The last one, because its probe stays with the renderer for a while.
     "room": "one isotropic material in a room that a probe lights",
 }
 # The preset that cuts nothing.
 WHOLE = "whole"
-# The preset that exports the isotropic scene alone, by what it depends on.
+# The presets that export the isotropic scene alone, or that with a shader of its own, by what it depends on.
 CHOSEN = "chosen"
+CHOSEN_OWN = "chosen_own"
 UNUSED = "tests/data/unused.exr"
 # All that is drawn. The brushed one is there for a target: fewer lobes of a table beside all of them.
 DRAWN = SCENES | {"brushed": "one anisotropic material of a table, the scene's sky"}
@@ -80,7 +86,7 @@ FEATURES = {
 }
 PLAIN = ("isotropic", "anisotropic", "by_script", "panorama")
 # Scenes whose materials something may change, or whose lights take other shaders.
-UNFROZEN = ("empty", "everything", "by_script", "room")
+UNFROZEN = ("empty", "everything", "by_script", "room", OWN, OWN_ISOTROPIC)
 # What nobody needs where all light is baked.
 LIVE_PARTS = ("pyramid", "live", "skies", "rendering_device", "compatibility", "filters")
 PROJECT = """config_version=5
@@ -191,7 +197,9 @@ def make_project(project):
         others = ",".join(f"tests/diet/scenes/{other}*" for other in DRAWN if other != scene)
         # A frozen material does not tell what it fetches.
         add(name, ALL_FILES, others, target=target, freeze="true" if target == 0.0 else "false")
-    add(CHOSEN, CHOSEN_FILES.format(scene="isotropic"), "")
+    # All scripts count, and one of them binds materials.
+    add(CHOSEN, CHOSEN_FILES.format(scene="isotropic"), f"tests/diet/scenes/{OWN}*")
+    add(CHOSEN_OWN, CHOSEN_FILES.format(scene=OWN_ISOTROPIC), "")
     (project / "export_presets.cfg").write_text("\n".join(presets), encoding="utf-8")
     run_engine("--headless", "--path", project, "--import")
     arguments = ["res://tests/data/forest.exr", f"res://{LIGHT}", LIGHT_WIDTH]
@@ -336,6 +344,29 @@ def check_probes(checks, work):
         checks.expect(f"{scene}: {len(files)} files of probes", bool(files) == (scene == "room"))
 
 
+def check_own_shaders(checks, work, rows, pictures):
+    """What shaders of one's own need goes along with them and with nobody else, and all of it does."""
+    names = {scene: " ".join(file[0] for file in read_files(work / scene / "game.pck")) for scene in SCENES}
+    for scene, files in names.items():
+        there = {part in files for part in FOR_OWN}
+        checks.expect(f"{scene}: files for shaders of one's own", there == {scene in (OWN, OWN_ISOTROPIC)})
+    for row in (row for row in rows if row["scene"] in (OWN, OWN_ISOTROPIC)):
+        left = {entry["path"].split("/")[-1]: entry["after"] for entry in row["report"]["tables"] + row["report"]["files"]}
+        is_brushed = row["scene"] == OWN
+        checks.expect(f"{row['scene']}: {left['ggx_8.res']} bytes of lobes", (left["ggx_8.res"] > 1e6) == is_brushed)
+        for part in ("line.gdshaderinc", "diffuse.gdshaderinc"):
+            checks.expect(f"{row['scene']}: {left[part]} bytes of {part}", (left[part] > 1) == is_brushed)
+        checks.expect(f"{row['scene']}: no class of materials", left["lobe_material_3d.gd"] == 0)
+    # Of a chosen scene.
+    folder = work / CHOSEN_OWN
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    run_engine("--headless", "--path", work / "project", "--export-pack", CHOSEN_OWN, folder / "game.pck")
+    run_pack(folder / "game.pck", FIRST, "--", folder, f"res://tests/diet/scenes/{OWN_ISOTROPIC}.tscn")
+    decibels = psnr(read_picture(folder / f"{OWN_ISOTROPIC}.png"), pictures[OWN_ISOTROPIC][FIRST])
+    checks.expect(f"one scene with a shader of its own: {decibels:.1f} dB apart", decibels >= LEAST_PSNR)
+
+
 def check_asking(checks, pack):
     """A script that reaches what the pack leaves out gets nothing, one sentence, and the light back when it asks no more."""
     scene = "res://tests/diet/scenes/isotropic.tscn"
@@ -460,6 +491,7 @@ def main():
         check_chosen(checks, work / "project", work / CHOSEN, rows)
         check_panorama(checks, work / WHOLE / "game.pck", work / "panorama/game.pck", rows)
         check_probes(checks, work)
+        check_own_shaders(checks, work, rows, pictures)
         check_asking(checks, work / "isotropic_target/game.pck")
         if options.instructions:
             print("instructions", file=sys.stderr, flush=True)

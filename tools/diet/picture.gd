@@ -39,7 +39,8 @@ func _materials() -> Array[Dictionary]:
 		# Put together: what names a material's methods may change it, for all that exports know.
 		var asks := material.has_method("get_shader" + "_code")
 		var frozen := (material as ShaderMaterial).shader
-		if not asks and frozen == null:
+		# Not shaders of the project's own.
+		if not asks and (frozen == null or not &"parameters" in material):
 			continue
 		var code: String = material.call("get_shader" + "_code") if asks else frozen.code
 		# In lights with suns.

@@ -25,6 +25,8 @@ LICENCES = "bin/LICENCES.txt"
 PATTERNS = [
     "plugin.cfg",
     "LICENSE",
+    "lobelight.gdshaderinc",
+    "lobelight.gdshaderinc.uid",
     "icons/*.svg",
     "icons/*.svg.import",
     "tables/*.res",

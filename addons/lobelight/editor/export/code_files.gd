@@ -5,9 +5,11 @@ extends RefCounted
 ## A script or shader that nothing names, neither the project's files nor a file of the run time
 ## that is needed, stays out. Folders of features (features.gd) stay or go whole. Of a feature that
 ## nothing reaches, shader includes that a script preloads have to be there, and go along empty.
+## lobelight.gdshaderinc, which lies above the run time, is part of the folder that goes with it.
 ## What stays loses its comments; scripts do so by the engine.
 
 const Features := preload("features.gd")
+const OnDemand := preload("../../runtime/on_demand.gd")
 const ProjectFiles := preload("project_files.gd")
 const ShaderText := preload("shader_text.gd")
 
@@ -18,6 +20,8 @@ const TABLE_SET := RUN_TIME + "table/lobe_table_set.gd"
 const SHADERS: PackedStringArray = ["gdshader", "gdshaderinc"]
 const CODE: PackedStringArray = ["gd", "gdshader", "gdshaderinc"]
 const EMPTY_INCLUDE := "\n"
+# Shaders that nobody has seen may ask for a line.
+const NO_LINES := "#define LOBELIGHT_NO_LINES\n"
 # What names others without being resources.
 const TEXTS: PackedStringArray = ["gd", "cs", "gdshader", "gdshaderinc"]
 
@@ -62,6 +66,7 @@ static func of_files(
 	code._features = features
 	features.look_at_settings()
 	code._list(RUN_TIME)
+	code._add(Features.FOR_OTHERS)
 	for entry: Dictionary in ProjectSettings.get_global_class_list():
 		var path: String = entry["path"]
 		if path.begins_with(RUN_TIME):
@@ -86,16 +91,20 @@ func get_size_after() -> int:
 func _list(folder: String) -> void:
 	for name in DirAccess.get_files_at(folder):
 		if name.get_extension() in CODE:
-			var file := CodeFile.new()
-			file.before = FileAccess.get_file_as_bytes(folder + name).size()
-			files[folder + name] = file
+			_add(folder + name)
 	for name in DirAccess.get_directories_at(folder):
 		_list(folder + name + "/")
 
 
+func _add(path: String) -> void:
+	var file := CodeFile.new()
+	file.before = FileAccess.get_file_as_bytes(path).size()
+	files[path] = file
+
+
 func _look_at(file: String) -> void:
 	if file.get_extension() in TEXTS:
-		_read(file, FileAccess.get_file_as_string(file))
+		_read(file, _get_code(file))
 		return
 	var paths := ProjectFiles.get_dependencies(file)
 	for path: String in _dependencies.get(file, paths):
@@ -128,12 +137,18 @@ func _need_folder(path: String) -> void:
 
 func _follow(path: String) -> void:
 	var code: PackedStringArray = []
-	for line in FileAccess.get_file_as_string(path).split("\n"):
+	for line in _get_code(path).split("\n"):
 		if not line.strip_edges().begins_with("#") or "#include" in line:
 			code.append(line)
 	for found in _preload.search_all("\n".join(code)):
 		_preloaded[_absolute(found.get_string(1), path)] = true
 	_read(path, "\n".join(code))
+
+
+# Comments of shaders name what the reader may want to know of.
+static func _get_code(path: String) -> String:
+	var text := FileAccess.get_file_as_string(path)
+	return ShaderText.without_comments(text) if path.get_extension() in SHADERS else text
 
 
 static func _absolute(path: String, file: String) -> String:
@@ -194,7 +209,7 @@ func _decide(path: String) -> void:
 		else:
 			file.after = 0
 	elif path.get_extension() in SHADERS:
-		file.bytes = _shorten(FileAccess.get_file_as_string(path)).to_utf8_buffer()
+		file.bytes = _shorten(path).to_utf8_buffer()
 		file.why = "without comments, for %s" % _features.reached.get(feature, _needed_by[path])
 	else:
 		file.why = "for %s" % _features.reached.get(feature, _needed_by[path])
@@ -202,7 +217,10 @@ func _decide(path: String) -> void:
 		file.after = file.bytes.size()
 
 
-func _shorten(shader: String) -> String:
+func _shorten(path: String) -> String:
+	var shader := FileAccess.get_file_as_string(path)
+	if path == Features.FOR_OTHERS and not _features.reached.has(OnDemand.LINES):
+		shader = NO_LINES + shader
 	for feature in Features.DEFINES:
 		if not _features.reached.has(feature):
 			shader = ShaderText.without(shader, Features.DEFINES[feature])

@@ -70,12 +70,14 @@ static func of_files(
 		diet.frozen.why_not = "the preset says so"
 	reach.features.look_at_settings()
 	diet.frozen.freeze(reach.features, diet._load_edited)
-	var is_frozen: bool = diet.frozen.is_frozen()
+	var sets: Dictionary[String, SetReach] = reach.sets
+	if diet.frozen.is_frozen():
+		sets = reach.sets_of_others
 	diet.code = CodeFiles.of_files(files, reach.features, diet.frozen.dependencies)
 	for name in DirAccess.get_files_at(Reach.TABLES):
 		if name.get_extension() == "res":
 			var path := Reach.TABLES + name
-			diet.shares[path] = _share_of(path, null if is_frozen else reach.sets.get(path))
+			diet.shares[path] = _share_of(path, sets.get(path))
 	return diet
 
 

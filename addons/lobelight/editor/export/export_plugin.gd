@@ -24,6 +24,8 @@ const TableChoice := preload("../../runtime/material/table_choice.gd")
 const ADDON := "res://addons/lobelight/"
 const EDITOR_ONLY: PackedStringArray = ["editor/", "bin/", "doc_classes/", "icons/"]
 const TABLE_CHOICE := "res://addons/lobelight/runtime/material/table_choice.gd"
+const OWN_SHADERS := "res://addons/lobelight/runtime/own_shaders/shader_binding.gd"
+const FOR_OTHERS := "res://addons/lobelight/lobelight.gdshaderinc"
 const CUT_TABLES := "lobelight/cut_tables"
 const FIT_ENVIRONMENTS := "lobelight/fit_environments"
 const FREEZE_MATERIALS := "lobelight/freeze_materials"
@@ -33,7 +35,7 @@ const REPORT := "res://.godot/lobelight_export.json"
 
 var _extension_list := ExtensionList.new()
 var _diet: Diet
-# The sets that have been seen to.
+# The sets, and what others include, that have been seen to.
 var _done: Dictionary[String, bool] = {}
 
 
@@ -134,6 +136,14 @@ func _export_file(path: String, type: String, features: PackedStringArray) -> vo
 		_export_table(TableChoice.SHEEN_SET, false)
 	elif path.begins_with(Reach.TABLES) and _export_table(path, true):
 		skip()
+	if path == OWN_SHADERS:
+		# Dependencies do not tell of includes, either.
+		_export_for_others()
+	elif path == FOR_OTHERS:
+		if _done.has(path):
+			skip()
+			return
+		_done[path] = true
 	if _diet != null and _diet.code.files.has(path):
 		_export_code(path, _diet.code.files[path])
 
@@ -175,6 +185,17 @@ func _export_code(path: String, file: Diet.CodeFiles.CodeFile) -> void:
 	elif not file.bytes.is_empty():
 		add_file(path, file.bytes, false)
 		skip()
+
+
+func _export_for_others() -> void:
+	if _done.has(FOR_OTHERS):
+		return
+	_done[FOR_OTHERS] = true
+	var file: Diet.CodeFiles.CodeFile = _diet.code.files[FOR_OTHERS] if _diet != null else null
+	if file == null:
+		add_file(FOR_OTHERS, FileAccess.get_file_as_bytes(FOR_OTHERS), false)
+	elif file.after > 0:
+		add_file(FOR_OTHERS, file.bytes, false)
 
 
 # Adds what the export takes of a set. Returns false if the engine is to export the file as it is,

@@ -13,6 +13,8 @@ const OnDemand := preload("../../runtime/on_demand.gd")
 const TableChoice := preload("../../runtime/material/table_choice.gd")
 
 const RUN_TIME := "res://addons/lobelight/runtime/"
+## What shaders of one's own include.
+const FOR_OTHERS := "res://addons/lobelight/lobelight.gdshaderinc"
 const DECLARATION := "metadata/lobelight_features"
 const COAT := "clear coats"
 const DIFFUSE := "diffuse light"
@@ -42,6 +44,7 @@ const FOLDERS: Dictionary[String, String] = {
 	"engine_light": OnDemand.ENGINE_LIGHT,
 	"filters": OnDemand.FILTERS,
 	"mixing": OnDemand.MIXING,
+	"own_shaders": OnDemand.OWN_SHADERS,
 	"occlusion": OCCLUSION,
 	"msdf": MSDF,
 	"parallax": PARALLAX,
@@ -61,6 +64,7 @@ const FOLDERS: Dictionary[String, String] = {
 ## What shaders that others share ask for where they are to draw the feature.
 const DEFINES: Dictionary[String, String] = {
 	OnDemand.ANTIALIASING: "LOBELIGHT_ANTIALIASED",
+	DIFFUSE: "LOBELIGHT_DIFFUSE",
 	DETAIL: "LOBELIGHT_DETAIL",
 	MSDF: "LOBELIGHT_MSDF",
 	PARALLAX: "LOBELIGHT_PARALLAX",
@@ -92,6 +96,11 @@ const _WORDS: Dictionary[String, String] = {
 	OnDemand.SOURCES: "source|sources|max_sources|panorama|LobeEnvironment3D",
 	GLTF: "LobeGLTFExtension",
 	OnDemand.CONVERSION: "LobeGLTFExtension|from_standard|to_standard|get_losses_from",
+	OnDemand.OWN_SHADERS:
+	(
+		"LobeLight\\s*\\.\\s*(un)?bind|lobe_light(?=\\.gd)|(?<=[\"'])(un)?bind(?=[\"'])"
+		+ "|LobeShaderMaterial|lobe_shader_material(?=\\.gd)|lobelight(?=\\.gdshaderinc)"
+	),
 	OnDemand.PLACES: "LobeProbe3D|own_world_3d|world_3d|fade_time",
 	DETAIL: "detail_\\w+",
 	MSDF: "albedo_texture_msdf|msdf_\\w+",
@@ -125,6 +134,8 @@ const _FALLBACK := "rendering/rendering_device/fallback_to_opengl3"
 
 ## By feature: who needs it.
 var reached: Dictionary[String, String] = {}
+## The same of what scenes say themselves.
+var declared: Dictionary[String, String] = {}
 ## Of each [LobeEnvironment3D] in a scene, [file, properties].
 var environments: Array[Array] = []
 ## The same of those that show a baked light.
@@ -144,6 +155,8 @@ var _resizing := RegEx.create_from_string(
 
 ## The feature that a file belongs to; empty if it goes along without one.
 static func of_file(path: String) -> String:
+	if path == FOR_OTHERS:
+		return OnDemand.OWN_SHADERS
 	return FOLDERS.get(path.trim_prefix(RUN_TIME).get_slice("/", 0), "")
 
 
@@ -244,6 +257,7 @@ func look_at_node(file: String, properties: Dictionary, type: StringName) -> voi
 		read_line(file, ":" + " :".join(PackedStringArray(properties.keys())))
 		return
 	for feature: String in properties.get(DECLARATION, []):
+		declared[feature] = file
 		add(feature, file)
 	if properties.get("own_world_3d", false) or properties.has("world_3d"):
 		add(OnDemand.PLACES, file)

@@ -43,6 +43,10 @@ var shaders: Dictionary[String, PackedByteArray] = {}
 # The files that have materials.
 var _homes: Dictionary[String, bool] = {}
 var _naming := RegEx.new()
+# What concerns shaders of one's own.
+var _of_others := RegEx.create_from_string(
+	"\\bLobeLight\\.(un)?bind\\b|\\baddons/lobelight/lobelight\\.gdshaderinc\\b"
+)
 var _made: Dictionary[int, FrozenMaterial] = {}
 var _shaders: Dictionary[String, Shader] = {}
 var _count := 0
@@ -64,7 +68,7 @@ func _init() -> void:
 
 ## A line of a script, or the path of an animation's track.
 func read_line(file: String, line: String) -> void:
-	var found := _naming.search(line)
+	var found := _naming.search(_of_others.sub(line, "", true))
 	if found != null:
 		_refuse("%s names %s" % [file, found.get_string().lstrip(".\"'&^:/")])
 

@@ -11,8 +11,10 @@ extends RefCounted
 const Features := preload("features.gd")
 const FrozenMaterials := preload("frozen_materials.gd")
 const LobeReduction := preload("lobe_reduction.gd")
+const OwnShaders := preload("own_shaders.gd")
 const ProjectFiles := preload("project_files.gd")
 const SetReach := preload("set_reach.gd")
+const OnDemand := preload("../../runtime/on_demand.gd")
 const TableChoice := preload("../../runtime/material/table_choice.gd")
 const Widths := preload("../../runtime/table/widths.gd")
 
@@ -23,6 +25,8 @@ const TEXTURES := "roughness_texture|orm_texture|anisotropy_flowmap"
 
 ## By the path of the set.
 var sets: Dictionary[String, SetReach] = {}
+## What of them stays where materials are frozen: what shaders of one's own draw.
+var sets_of_others: Dictionary[String, SetReach] = {}
 ## How many materials of the addon were found.
 var material_count := 0
 var features := Features.new()
@@ -35,6 +39,7 @@ var lobes := LobeReduction.new()
 
 # Each is [file, material].
 var _materials: Array[Array] = []
+var _own_shaders := OwnShaders.new()
 var _numbers: Dictionary[String, PackedFloat64Array] = {}
 var _unknown: PackedStringArray = []
 var _declared := false
@@ -92,6 +97,8 @@ func _read(file: String) -> void:
 		_look_at_scene(file, ResourceLoader.load(file) as PackedScene)
 	elif ending in ProjectFiles.RESOURCES:
 		_look_at(file, ResourceLoader.load(file))
+	elif ending in ProjectFiles.SHADERS:
+		_own_shaders.look_at_file(file)
 
 
 func _look_at_scene(file: String, scene: PackedScene) -> void:
@@ -152,9 +159,19 @@ func _look_at(file: String, value: Variant) -> void:
 		features.look_at_resource(file, resource)
 		if resource is PanoramaSkyMaterial:
 			lobes.add_panorama((resource as PanoramaSkyMaterial).panorama)
-		for property in resource.get_property_list():
-			if property["usage"] & PROPERTY_USAGE_STORAGE:
-				_look_at(file, resource.get(property["name"]))
+		if resource is Shader:
+			_own_shaders.look_at_shader(file, resource)
+		if resource is LobeShaderMaterial:
+			_own_shaders.look_at_material(resource)
+		_look_at_properties(file, resource)
+
+
+func _look_at_properties(file: String, resource: Resource) -> void:
+	for property in resource.get_property_list():
+		# Which of a set's tables such a material draws says its shader.
+		var is_set: bool = resource is LobeShaderMaterial and property["name"] == "table_set"
+		if property["usage"] & PROPERTY_USAGE_STORAGE and not is_set:
+			_look_at(file, resource.get(property["name"]))
 
 
 func _look_at_animation(file: String, animation: Animation) -> void:
@@ -173,6 +190,7 @@ func _read_script(file: String, text: String) -> void:
 			continue
 		features.read_line(file, code)
 		frozen.read_line(file, code)
+		_own_shaders.read_line(file, code)
 		if _dynamic.search(code) != null or _other_widths.search(code) != null:
 			features.add_all(file)
 			frozen.add_all(file)
@@ -223,11 +241,14 @@ func _conclude() -> void:
 		_include(file, LobeMaterial3D.new())
 	_include_coats()
 	_include_sheens()
+	_include_own_shaders()
 	for path in _named_sets:
 		var named := _get_set(path)
 		# The script may ask it for any table.
 		named.whole_because = "%s names it" % _named_sets[path]
 		named.add_user(_named_sets[path])
+		if features.reached.has(OnDemand.OWN_SHADERS):
+			sets_of_others[path] = named
 	for reach: SetReach in sets.values():
 		reach.is_filled = _declared
 		if not _declared and not _unknown.is_empty() and reach.whole_because.is_empty():
@@ -268,6 +289,21 @@ func _include_sheens() -> void:
 	if sheens.surfaces.is_empty() or not _sheen_script.is_empty():
 		sheens.whole_because = "a script may ask for any"
 		sheens.add_user(features.reached[Features.SHEEN])
+
+
+func _include_own_shaders() -> void:
+	_own_shaders.conclude(features)
+	sets_of_others = _own_shaders.sets
+	for path in sets_of_others:
+		var reach := _get_set(path)
+		for file in sets_of_others[path].needed_by:
+			reach.add_user(file)
+		for surface in sets_of_others[path].surfaces:
+			reach.add_surface(surface)
+		if reach.whole_because.is_empty():
+			reach.whole_because = sets_of_others[path].whole_because
+		if reach.isotropic_because.is_empty():
+			reach.isotropic_because = sets_of_others[path].isotropic_because
 
 
 func _get_set(path: String) -> SetReach:

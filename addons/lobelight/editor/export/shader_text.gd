@@ -18,6 +18,19 @@ static func strip(code: String) -> String:
 	return kept
 
 
+## The code without comments of either kind.
+static func without_comments(code: String) -> String:
+	# Paths hold what elsewhere begins a comment.
+	var parts := RegEx.create_from_string('"[^"\\n]*"|//[^\\n]*|/\\*[\\s\\S]*?\\*/')
+	var kept := ""
+	var at := 0
+	for found in parts.search_all(code):
+		if not found.get_string().begins_with('"'):
+			kept += code.substr(at, found.get_start() - at) + " "
+			at = found.get_end()
+	return kept + code.substr(at)
+
+
 ## The code without what is drawn only where [param define] is set: branches of [code]#ifdef[/code]
 ## and [code]#ifndef[/code] that ask for it alone. Code that asks in another way stays as it is.
 static func without(code: String, define: String) -> String:
