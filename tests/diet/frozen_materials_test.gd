@@ -36,6 +36,8 @@ const LINES := [
 	["material.get_shader_code()", false],
 	["environment.light = other", false],
 	["var light := LobeLight.new()", false],
+	["LobeLight.bind($Water.material_override)", true],
+	['code = "#include \\"res://addons/lobelight/lobelight.gdshaderinc\\""', true],
 	['load("res://addons/lobelight/tables/ggx_8.res")', false],
 ]
 

@@ -1,8 +1,7 @@
 extends GdUnitTestSuite
-## What shaders of one's own need of the addon in an export, and that it goes along with nobody else.
+## What shaders of one's own need of the addon in an export, which goes along with nobody else.
 
 const Diet := preload("res://addons/lobelight/editor/export/diet.gd")
-const FrozenMaterials := preload("res://addons/lobelight/editor/export/frozen_materials.gd")
 const OnDemand := preload("res://addons/lobelight/runtime/on_demand.gd")
 const OwnShaders := preload("res://addons/lobelight/editor/export/own_shaders.gd")
 const ProjectFiles := preload("res://addons/lobelight/editor/export/project_files.gd")
@@ -13,9 +12,10 @@ const ADDON := "res://addons/lobelight/"
 const INCLUDE := '#include "res://addons/lobelight/lobelight.gdshaderinc"'
 const GGX := ADDON + "tables/ggx_8.res"
 const WARD := ADDON + "tables/ward_8.res"
-const REFLECT := "vec3 f(LobelightPixel p) { return lobelight_reflection(p, p.view, p.view, 1.0, 0.0, p.view); }"
-const SCATTER := "vec3 f(LobelightPixel p) { return lobelight_diffuse(p, p.view); }"
-const BOTH := "vec3 f(LobelightPixel p) { return lobelight_surface(p, p.view, p.view, 1.0, 0.0, p.view, 1.0, 0.5); }"
+const F := "vec3 f(LobelightPixel p, vec3 n) { return %s; }"
+const REFLECT := F % "lobelight_reflection(p, n, n, 1.0, 0.0, n)"
+const SCATTER := F % "lobelight_diffuse(p, n)"
+const BOTH := F % "lobelight_surface(p, n, n, 1.0, 0.0, n, 1.0, 0.5)"
 const BINDER := "extends Node\n\n\nfunc _ready() -> void:\n\tLobeLight.bind(material)\n"
 
 ## Lines of a shader, and what it needs: the line's lobes, diffuse light, anisotropic tables.
