@@ -134,7 +134,8 @@ lobelight/target_psnr={target}
 
 
 ALL_FILES = 'export_filter="all_resources"\ninclude_filter=""'
-CHOSEN_FILES = 'export_filter="scenes"\nexport_files=PackedStringArray("res://tests/diet/scenes/{scene}.tscn")\n'
+CHOSEN_FILES = 'export_filter="scenes"\n'
+CHOSEN_FILES += 'export_files=PackedStringArray("res://start.tscn", "res://tests/diet/scenes/{scene}.tscn")\n'
 CHOSEN_FILES += f'include_filter="{ADDON}/runtime/*"'
 
 
