@@ -152,6 +152,25 @@ func test_visual_shaders_are_read_as_text() -> void:
 	_expect_needs(_diet([_save(material, "user://own.tres")]), false, false, false)
 
 
+# What a material shows of a graph has the include before all else.
+func test_nodes_of_visual_shaders_say_what_they_need() -> void:
+	for brushing: float in [0.0, 0.8]:
+		var shader := VisualShader.new()
+		var node := VisualShaderNodeLobelightReflection.new()
+		node.set_input_port_default_value(3, brushing)
+		shader.add_node(VisualShader.TYPE_FRAGMENT, node, Vector2.ZERO, 2)
+		shader.connect_nodes(VisualShader.TYPE_FRAGMENT, 2, 1, 0, 5)
+		var material := LobeShaderMaterial.new()
+		material.shader = shader
+		var diet := _diet([_save(material, "user://own.tres")])
+		_expect_needs(diet, brushing > 0.0, false, brushing > 0.0)
+		assert_bool(_is_kept(diet, "runtime/visual_shader/nodes.gdshaderinc")).is_true()
+		assert_bool(_is_kept(diet, "runtime/visual_shader/reflection_node.gd")).is_true()
+	var none := _diet(ProjectFiles.of_scene(SCENES + "own_shaders.tscn"))
+	for path in none.code.files:
+		assert_bool("/visual_shader/" in path and none.code.files[path].after > 0).is_false()
+
+
 func test_what_scripts_write_may_be_any_shader() -> void:
 	var outer := _write("user://own_outer.gdshaderinc", OUTER)
 	for line: String in [INCLUDE.c_escape(), '#include \\"user://own_outer.gdshaderinc\\"']:

@@ -29,6 +29,7 @@ const GLTF := "import of glTF files"
 const FADES := "fades and refraction"
 const LAMPS := "rims, back light and light below the surface"
 const FROZEN := "materials that nothing changes"
+const NODES := "nodes of visual shaders"
 const WARNINGS := "warnings, which the editor shows"
 
 ## Folders of the run time that nothing but the feature needs. Each of them stays or goes whole.
@@ -59,6 +60,7 @@ const FOLDERS: Dictionary[String, String] = {
 	"skies": OnDemand.SKIES,
 	"triplanar": TRIPLANAR,
 	"vertices": VERTICES,
+	"visual_shader": NODES,
 	"warnings": WARNINGS,
 }
 ## What shaders that others share ask for where they are to draw the feature.

@@ -10,6 +10,7 @@ extends RefCounted
 ## Only what somebody binds takes lobes: materials of the class LobeShaderMaterial do so
 ## themselves, others are bound by scripts. Either may be given any of the shaders.
 
+const Binding := preload("../../runtime/own_shaders/shader_binding.gd")
 const CodeText := preload("shader_text.gd")
 const Features := preload("features.gd")
 const OnDemand := preload("../../runtime/on_demand.gd")
@@ -18,6 +19,8 @@ const TableChoice := preload("../../runtime/material/table_choice.gd")
 
 const ADDON := "res://addons/lobelight/"
 const INCLUDE := Features.FOR_OTHERS
+# What graphs include in its place.
+const NODES := Features.RUN_TIME + "visual_shader/nodes.gdshaderinc"
 const ISOTROPIC := "LOBELIGHT_ISOTROPIC"
 const QUALITY := "LOBELIGHT_QUALITY"
 # Without a line.
@@ -158,6 +161,10 @@ func _add_set(path: String, tables: LobeTableSet, file: String, shader: Found) -
 func _look_at_code(file: String, code: String, path: String) -> void:
 	var reading := Reading.new()
 	_read(code, path, reading)
+	if NODES in code:
+		reading.found.is_lit = true
+		reading.found.is_isotropic = Binding.is_round(code)
+		reading.found.has_line = not reading.found.is_isotropic
 	if reading.found.is_lit:
 		_shaders.append([file, reading.found])
 		for include in reading.read:
@@ -213,7 +220,7 @@ func _include(path: String, reading: Reading) -> void:
 
 # Whether a file is the addon's include, or includes it.
 func _leads(path: String) -> bool:
-	if path == INCLUDE:
+	if path in [INCLUDE, NODES]:
 		return true
 	if path.begins_with(ADDON) or path.get_extension() != "gdshaderinc":
 		return false

@@ -217,13 +217,13 @@ func _find_defines() -> PackedStringArray:
 			defines.append("QUALITY 8")
 	if tables != null and tables.lobe_count != 8:
 		defines.append("LOBES %d" % tables.lobe_count)
-	if _is_round(_shader.code):
+	if is_round(_shader.code):
 		defines.append("ISOTROPIC")
 	return defines
 
 
-# Whether all that asks for lobes is nodes that say so; other code may be in other files.
-static func _is_round(code: String) -> bool:
+## Whether all that asks for lobes is nodes that say so; other code may be in other files.
+static func is_round(code: String) -> bool:
 	if _ROUND not in code:
 		return false
 	for line in code.split("\n"):
