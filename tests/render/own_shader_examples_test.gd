@@ -2,6 +2,7 @@ extends GdUnitTestSuite
 ## The examples of shaders of one's own, demo/examples: they show what they are examples of.
 
 const Kit := preload("support/render_kit.gd")
+const PAGE := "res://docs/own-shaders.md"
 const EXAMPLES := [["car_paint"], ["water"], ["brushed_dial"]]
 const SIDE := 64
 
@@ -24,6 +25,47 @@ func test_runs_as_it_is(name: String, _test_parameters := EXAMPLES) -> void:
 		picture = await _view.capture()
 	# One NaN makes the mean one.
 	assert_float(_mean(picture)).is_between(0.02, 1.0)
+
+
+## The page's first shader, and what it says to put after the include, show what the equal
+## LobeMaterial3D shows; copies of the material are bound.
+func test_first_shader_of_the_page() -> void:
+	var blocks := FileAccess.get_file_as_string(PAGE).split("```glsl\n")
+	var code := blocks[1].get_slice("```", 0)
+	var check := blocks[3].get_slice("```", 0)
+	assert_str(check).contains("LOBELIGHT_API")
+	var material := LobeShaderMaterial.new()
+	material.shader = Shader.new()
+	material.shader.code = code.replace("\nuniform vec3", check + "\nuniform vec3")
+	var ready := LobeMaterial3D.new()
+	ready.albedo_color = Color(0.95, 0.8, 0.5)
+	material.set_shader_parameter(&"colour", ready.albedo_color)
+	ready.metallic = 1.0
+	ready.roughness = 0.35
+	ready.anisotropy_enabled = true
+	ready.anisotropy = 0.8
+	var light := LobeEnvironment3D.new()
+	light.panorama = Kit.make_panorama(
+		32, func(d: Vector3) -> Color: return Color(1.2, 0.8, 0.5) * (0.6 + 0.5 * d.y * d.x)
+	)
+	_view.add_child(light)
+	var sphere := Kit.make_sphere(material.duplicate() as Material, 24)
+	_view.add_child(sphere)
+	await light.rebuild()
+	await _view.capture()
+	var own := await _view.capture()
+	(sphere.mesh as SphereMesh).material = ready
+	await _view.capture()
+	var other := await _view.capture()
+	assert_float(_mean(other)).is_greater(0.1)
+	var largest := 0.0
+	for y in SIDE:
+		for x in SIDE:
+			var one := own.get_pixel(x, y).linear_to_srgb()
+			var equal := other.get_pixel(x, y).linear_to_srgb()
+			for channel in 3:
+				largest = maxf(largest, absf(one[channel] - equal[channel]))
+	assert_float(largest).is_less(1.01 / 255.0)
 
 
 func test_flakes_sparkle_until_they_are_smaller_than_pixels() -> void:
