@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers render); [--json FILE] [--sanitize KIND]
+# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers stereo render); [--json FILE] [--sanitize KIND]
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/gdunit.sh
 source "$ROOT/tools/lib/gdunit.sh"
+# shellcheck source=tools/lib/stereo.sh
+source "$ROOT/tools/lib/stereo.sh"
 # shellcheck source=tools/lib/demo_tables.sh
 source "$ROOT/tools/lib/demo_tables.sh"
 # shellcheck source=tools/testing/runners.sh
@@ -14,7 +16,7 @@ source "$ROOT/tools/testing/lanes.sh"
 # shellcheck source=tools/testing/sanitizers.sh
 source "$ROOT/tools/testing/sanitizers.sh"
 
-GROUPS_OF_TESTS=(lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers render)
+GROUPS_OF_TESTS=(lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers stereo render)
 
 usage() {
   cat <<USAGE

@@ -62,6 +62,7 @@ jobs_of() {
     cpp) printf '%s\n' cpp cpp_sanitized fuzz ;;
     stability) printf '%s\n' stability stability_changes ;;
     commands) printf '%s\n' commands setup report report_smoke bench_runtime ;;
+    stereo) printf '%s\n' stereo_mobile stereo_forward_plus ;;
     export) printf '%s\n' export_diet export_pictures export_package export_android export_web ;;
     render)
       for renderer in ${LOBELIGHT_RENDERERS:-mobile gl_compatibility forward_plus}; do
@@ -97,6 +98,7 @@ prepare_tests() {
   [[ $wanted != *" fuzz "* ]] || bash "$ROOT/tools/setup/fuzz.sh" lobelight_fuzz lobelight_sanitized_tests
   need_gdunit
   need_import
+  [[ ! $wanted =~ \ stereo_ ]] || need_stereo_project
   [[ ! $wanted =~ \ (render_[a-z_]+)\  ]] || bake_demo_tables thesis_8
   [[ $wanted != *" export_package "* ]] || need_package_libraries
   [[ ! $wanted =~ \ export_(android|web)\  ]] || bake_demo_tables "${DEMO_SETS[@]}"
@@ -196,6 +198,14 @@ run_render() {
   local rendered=()
   list_rendered "$1"
   run_gdunit "render-$1" "${rendered[@]}" -- in_time godot_rendered "$1"
+}
+
+# Pictures for two eyes. (In Compatibility, Mesa's drivers in software draw for one.)
+run_stereo_mobile() { run_stereo mobile; }
+run_stereo_forward_plus() { run_stereo forward_plus; }
+
+run_stereo() {
+  run_suites "stereo-$1" tests/stereo in_time godot_rendered "$1" --path "$STEREO_PROJECT"
 }
 
 # What the commands do with wrong arguments and files.
