@@ -79,7 +79,7 @@ quiet_engine "$GODOT" --headless --path "$ROOT" --export-pack Web "$work/index.p
 }
 expect_pack "$work/index.pck" --present 'demo/demo.tscn' --present 'demo/build/tables/thesis_8.res' \
   --absent 'bake/*.gd' --absent 'bake/*.gdc' --absent 'bake/*.gd.remap' --absent 'bake/*.json' --absent 'tests/*' \
-  --absent 'tools/*' --absent 'docs/*' --absent 'demo/commands/*' --absent 'demo/engine_light/*' \
+  --absent 'tools/*' --absent 'docs/*' --absent 'demo/commands/*' --absent 'demo/engine_light/*' --absent 'demo/examples/*' \
   || die "web: the pack holds too much or too little"
 godot_headless --no-header --script res://tools/web/licences.gd -- "$work/engine.txt" >/dev/null
 "$PYTHON" "$ROOT/tools/web/site_folder.py" --page "$ROOT/tools/web/page" --template "$WEB_TEMPLATE" \
