@@ -22,6 +22,8 @@ func _ready() -> void:
 	environment.tonemap_mode = Environment.TONE_MAPPER_FILMIC
 	environment.sky = Sky.new()
 	environment.sky.sky_material = _sky
+	# The engine's own blurred map, made anew by each change: LobeMaterial3D does not read it.
+	environment.sky.radiance_size = Sky.RADIANCE_SIZE_32
 	_turn()
 
 
