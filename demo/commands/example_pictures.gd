@@ -7,7 +7,7 @@ extends "demo_command.gd"
 const PictureFile := preload("picture_file.gd")
 const FOLDER := "res://demo/examples"
 const SIZE := Vector2i(640, 360)
-# Until captures and the engine's own maps are there.
+# Until captures are there. The picture is drawn then, as drivers in software take their time for each.
 const _SETTLING := 12
 
 
@@ -28,7 +28,7 @@ func _draw(example_name: String, out: String) -> String:
 	view.own_world_3d = true
 	view.msaa_3d = Viewport.MSAA_4X
 	view.use_hdr_2d = true
-	view.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	view.render_target_update_mode = SubViewport.UPDATE_DISABLED
 	root.add_child(view)
 	var scene: PackedScene = load("%s/%s/%s.tscn" % [FOLDER, example_name, example_name])
 	var example := scene.instantiate()
@@ -39,7 +39,10 @@ func _draw(example_name: String, out: String) -> String:
 		await example.call(&"pose")
 		for frame in _SETTLING:
 			await process_frame
-	await RenderingServer.frame_post_draw
+	# The engine's own maps are of the frame before.
+	for frame in 2:
+		view.render_target_update_mode = SubViewport.UPDATE_ONCE
+		await RenderingServer.frame_post_draw
 	var problem := PictureFile.save(view, out.path_join(example_name + ".png"))
 	view.free()
 	for frame in 3:
