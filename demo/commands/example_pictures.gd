@@ -7,7 +7,7 @@ extends "demo_command.gd"
 const PictureFile := preload("picture_file.gd")
 const FOLDER := "res://demo/examples"
 const SIZE := Vector2i(640, 360)
-# Until captures are there. The picture is drawn then, as drivers in software take their time for each.
+# Until captures are there: before, nothing is drawn, which takes its time in software.
 const _SETTLING := 12
 
 
