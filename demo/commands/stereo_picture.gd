@@ -14,11 +14,13 @@ func _work(out: String) -> void:
 	var eyes := TwoEyes.new(SIDE)
 	eyes.use_hdr_2d = false
 	eyes.transparent_bg = false
+	# Each eye before the middle of its lens.
+	eyes.interface.display_width = 2.0 * eyes.interface.iod
 	eyes.interface.display_to_lens = 9.0
 	eyes.msaa_3d = Viewport.MSAA_4X
 	eyes.camera.environment = _make_surroundings()
 	root.add_child(eyes)
-	eyes.origin.position = Vector3(0.0, 0.0, 0.45)
+	eyes.origin.position = Vector3(0.0, 0.0, 0.6)
 	var light := LobeEnvironment3D.new()
 	light.panorama = load(PANORAMA)
 	eyes.add_child(light)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the pictures of demo/examples in docs/examples.md: examples.sh [FOLDER [EXAMPLE]]
+# Draws the pictures of demo/examples in docs/examples: examples.sh [FOLDER [EXAMPLE]]
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 folder=$(realpath -m -- "${1:-$ROOT/docs/examples}")
