@@ -18,6 +18,7 @@ const MaterialConversionPlugin := preload("conversion/material_conversion_plugin
 const MeasuredImporter := preload("import/measured_importer.gd")
 const NormalVarianceInspector := preload("antialiasing/normal_variance_inspector.gd")
 const PanoramaImporter := preload("import/panorama_importer.gd")
+const OwnShaderInspector := preload("own_shaders/own_shader_inspector.gd")
 const PresetInspector := preload("presets/preset_inspector.gd")
 const ProbeGizmo := preload("gizmos/probe_gizmo.gd")
 const ProjectSettingsPage := preload("project_settings.gd")
@@ -39,6 +40,7 @@ var _importers: Array[EditorImportPlugin] = []
 var _gltf_import: GltfImport
 var _preset_inspector: PresetInspector
 var _warning_inspector: WarningInspector
+var _own_shaders: OwnShaderInspector
 var _tools_menu: ToolsMenu
 var _probe_gizmo: ProbeGizmo
 var _light_bakes: LightBakes
@@ -87,6 +89,8 @@ func _enter_tree() -> void:
 	add_inspector_plugin(_light_inspector)
 	_normal_variance = NormalVarianceInspector.new(get_undo_redo())
 	add_inspector_plugin(_normal_variance)
+	_own_shaders = OwnShaderInspector.new(get_undo_redo())
+	add_inspector_plugin(_own_shaders)
 	_tools_menu = ToolsMenu.new(_bakes, _light_bakes, _scene_menu)
 	add_tool_submenu_item(ToolsMenu.TITLE, _tools_menu)
 	_probe_gizmo = ProbeGizmo.new(get_undo_redo())

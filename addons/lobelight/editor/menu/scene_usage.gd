@@ -7,6 +7,8 @@ const TangentWarning := preload("../tangent_warning.gd")
 
 ## The materials, and the nodes that show them.
 var materials: Dictionary[LobeMaterial3D, Array] = {}
+## All others with shaders, and the nodes that show them.
+var shader_materials: Dictionary[ShaderMaterial, Array] = {}
 var tables: Array[LobeTable] = []
 var environments: Array[LobeEnvironment3D] = []
 var probes: Array[LobeProbe3D] = []
@@ -44,6 +46,10 @@ func _look_at(node: Node) -> void:
 		environments.append(node)
 	if node is LobeProbe3D:
 		probes.append(node)
+	for material in _find_all(node):
+		if material is ShaderMaterial and not material is LobeMaterial3D:
+			var users: Array = shader_materials.get_or_add(material, [])
+			users.append(node)
 	for material in find_materials(node):
 		if not materials.has(material):
 			materials[material] = []
@@ -60,10 +66,17 @@ func _look_at(node: Node) -> void:
 ## The LobeMaterial3Ds that a node is drawn with, in next passes too.
 static func find_materials(node: Node) -> Array[LobeMaterial3D]:
 	var found: Array[LobeMaterial3D] = []
+	for material in _find_all(node):
+		if material is LobeMaterial3D:
+			found.append(material)
+	return found
+
+
+static func _find_all(node: Node) -> Array[Material]:
+	var found: Array[Material] = []
 	for material in _find_first_passes(node):
-		while material != null:
-			if material is LobeMaterial3D and material not in found:
-				found.append(material)
+		while material != null and material not in found:
+			found.append(material)
 			material = material.next_pass
 	return found
 

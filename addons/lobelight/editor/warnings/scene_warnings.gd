@@ -7,6 +7,7 @@ const ProbeWarnings := preload("../../runtime/warnings/probe_warnings.gd")
 const TableChoice := preload("../../runtime/material/table_choice.gd")
 const WidthsTexture := preload("../../runtime/table/widths_texture.gd")
 const SceneUsage := preload("../menu/scene_usage.gd")
+const OwnShaderWarnings := preload("../own_shaders/own_shader_warnings.gd")
 const TextureWarnings := preload("texture_warnings.gd")
 
 
@@ -23,6 +24,10 @@ static func of_scene(root: Node) -> PackedStringArray:
 			warnings.append("%s: %s" % [root.get_path_to(probe), warning])
 	for material in usage.materials:
 		warnings.append_array(_of_properties(material))
+	for material in usage.shader_materials:
+		for warning in OwnShaderWarnings.of(material):
+			var user: Node = usage.shader_materials[material][0]
+			warnings.append("%s: %s" % [root.get_path_to(user), warning])
 	for instance in usage.without_tangents:
 		warnings.append("%s: its mesh has no tangents." % root.get_path_to(instance))
 	return warnings

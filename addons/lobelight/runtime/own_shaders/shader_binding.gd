@@ -92,6 +92,18 @@ static func unbind(material: ShaderMaterial) -> void:
 		binding._end(material)
 
 
+static func is_bound(material: ShaderMaterial) -> bool:
+	_mutex.lock()
+	var binding := _find(material)
+	_mutex.unlock()
+	return binding != null
+
+
+## Whether a shader is one that the light can be handed to.
+static func takes_light(shader: Shader) -> bool:
+	return _NODES in shader.code or _list_parameters(shader).has(_LIGHT)
+
+
 static func _find(material: ShaderMaterial) -> RefCounted:
 	var known: WeakRef = _bindings.get(material.get_rid()) if material != null else null
 	return known.get_ref() if known != null else null
@@ -128,16 +140,14 @@ func _update() -> void:
 	if _shader == null:
 		_variant = null
 		return
-	var parameters := _list_parameters(_shader)
-	var is_graph := _NODES in _shader.code
-	if not is_graph and not parameters.has(_LIGHT):
+	if not takes_light(_shader):
 		_complain(material)
 		return
 	var defines := _find_defines()
 	_variant = null
-	if is_graph or not defines.is_empty():
+	if _NODES in _shader.code or not defines.is_empty():
 		_variant = ShaderVariants.fetch(_get_code(defines))
-		parameters = _list_parameters(_variant)
+	var parameters := _list_parameters(_get_shown())
 	_give_lobes(parameters[_TABLE] if parameters.has(_TABLE) else "")
 	RenderingServer.material_set_shader(_rid, _get_shown().get_rid())
 	# Files of materials have what their shaders' parameters were, the light's too.
