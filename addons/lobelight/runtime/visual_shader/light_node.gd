@@ -50,6 +50,14 @@ class Port:
 		return Port.new(named, VisualShaderNode.PORT_TYPE_SCALAR, typed, "%.5f" % typed)
 
 
+# The editor asks for the values by itself, scripts that make nodes do not.
+func _init() -> void:
+	var ports := _list_inputs()
+	for port in ports.size():
+		if ports[port].value != null:
+			set_input_port_default_value(port, ports[port].value)
+
+
 static func _list_surface_inputs() -> Array[Port]:
 	return [
 		Port.vector("normal", PIXELS_NORMAL),
