@@ -10,7 +10,8 @@ NORMALS = [(0, 0, 1), (0, -1, 0), (1, 0, 0), (1, 1, 1), (-0.9, 0.3, 0.2), (1e-3,
 
 def expect_planes(row):
     share = [abs(x) for x in vector(row[:3])]
-    sharpness = mpf(row[3])
+    # The least that the shader takes: 0 has no power of 0.
+    sharpness = max(mpf(row[3]), mpf("0.01"))
     powers = [(x / max(share)) ** sharpness for x in share]
     total = sum(powers)
     weights = [x / total for x in powers]
