@@ -47,6 +47,14 @@ func test_bolts() -> void:
 	assert_float(_mean(await _draw_example())).is_less(0.8 * _mean(brushed))
 
 
+func test_visual_shader() -> void:
+	var example := await _open("visual_shader")
+	var lit := await _draw_example()
+	# Without light there is nothing but the background.
+	(example.get_node("LobeEnvironment3D") as LobeEnvironment3D).energy = 0.0
+	assert_float(_mean(await _draw_example())).is_less(0.8 * _mean(lit))
+
+
 func test_cloth() -> void:
 	await _open("cloth")
 	var picture := await _draw_example()

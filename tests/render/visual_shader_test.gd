@@ -130,23 +130,6 @@ func test_the_sky_is_followed() -> void:
 		assert_float(middle).is_equal_approx(light, 0.008 * light)
 
 
-func test_the_example_is_lit() -> void:
-	var example: Node3D = load("res://demo/examples/visual_shader/visual_shader.tscn").instantiate()
-	# The suite's own are in its place.
-	var ball: MeshInstance3D = example.get_node(^"Ball")
-	var material: LobeShaderMaterial = ball.mesh.surface_get_material(0)
-	example.free()
-	await _light_up(0.0)
-	var image := await _capture(material)
-	# Stripes of paint and of metal, neither of them black.
-	var values: PackedFloat32Array = []
-	for y in SIDE / 2:
-		values.append(image.get_pixel(SIDE / 2, SIDE / 4 + y).get_luminance())
-	values.sort()
-	assert_float(values[0]).is_greater(0.005)
-	assert_float(values[-1]).is_greater(5.0 * values[0])
-
-
 func test_nodes_belong_to_fragments_of_surfaces() -> void:
 	var node := VisualShaderNodeLobelightSurface.new()
 	assert_bool(node._is_available(Shader.MODE_SPATIAL, FRAGMENT)).is_true()
