@@ -40,7 +40,7 @@ CHANGES = {
     "normal_variance.gdshaderinc": ("texels / 16.0", "texels / 16.1", ["antialiasing"]),
     "occlusion.gdshaderinc": ("2.0 / 3.0 - occlusion", "2.1 / 3.0 - occlusion", ["occlusion"]),
     "panorama.gdshaderinc": ("0.156583", "0.157583", ["panorama_1"]),
-    "placed_light.gdshaderinc": ("along_ = p_ * quotient_", "along_ = 0.999 * p_ * quotient_", ["placed_0"]),
+    "placed_light.gdshaderinc": ("along = p_ * quotient_", "along = 0.999 * p_ * quotient_", ["placed_0"]),
     "pyramid_pack.gdshader": ("uvec4(255u)", "uvec4(254u)", ["pack_4_0"]),
     "panorama_level.gdshaderinc": ("sqrt(3.0 * variance)", "sqrt(3.1 * variance)", ["pyramid_disc_16_32"]),
     "pyramid_reduce.gdshader": ("near_x ? 3.0", "near_x ? 2.9", ["pyramid_binomial_16_32"]),
