@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The Web in a headless Chromium that draws in software: scenes beside Compatibility on a desktop.
+"""A headless Chromium that draws in software: scenes beside Compatibility on this machine, and the demo's page.
 
-web_test.py --work DIR: GODOT names the engine, WEB_TEMPLATE the folder of its Web template.
+browser_test.py --scenes DIR | --page DIR: the scenes' project is made in DIR, where GODOT names the engine and WEB_TEMPLATE the
+folder of its Web template; the page is of ./dev web.
 """
 
 import argparse
@@ -9,14 +10,18 @@ import os
 import pathlib
 import sys
 
+import numpy as np
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/web"))
 import browser  # noqa: E402
+import demo_page  # noqa: E402
 import gallery  # noqa: E402
 
 # Seconds; far more than anything takes.
 LIMIT = 600
 # A picture of nothing would agree with itself.
 LEAST_CONTRAST = 20.0
+MOST_APART = 1
 
 
 class Checks:
@@ -51,19 +56,49 @@ def check_gallery(checks, program, work):
         share, largest = gallery.compare(picture, pictures[name])
         said = f"{name}: {share:.3%} of the pixels within {gallery.NEAR}/255, {gallery.LEAST_SHARE:.1%} wanted"
         checks.expect(f"{said}, at most {largest}/255", share >= gallery.LEAST_SHARE)
+    # The same metal by a shader of one's own and by LobeMaterial3D.
+    apart = int(np.abs(pictures["own"] - pictures["panorama"]).max())
+    checks.expect(f"own: {apart}/255 from LobeMaterial3D's picture at most, {MOST_APART} wanted", apart <= MOST_APART)
+
+
+def check_page(checks, program, folder):
+    """The demo loads, and follows the mouse and a finger."""
+    with browser.serve(folder) as address:
+        page = browser.Page(program, size=demo_page.SIZE, has_touch=True)
+        demo = demo_page.DemoPage(page)
+        demo.open(address, LIMIT)
+        picture = demo.picture()
+        checks.expect("page: the first picture shows something", float(picture.std()) > LEAST_CONTRAST)
+        checks.expect("page: one method has no divider", demo_page.find_divider(picture) < 0)
+        picture = demo.show_two_methods()
+        for title, drag, to, slider in (("mouse", page.drag_by_mouse, 0.3, 180), ("finger", page.drag_by_finger, 0.7, 230)):
+            holds, picture = demo.try_divider(picture, drag, to)
+            checks.expect(f"page: the divider follows the {title}", holds)
+            holds, picture = demo.try_slider(picture, drag, slider)
+            checks.expect(f"page: a slider follows the {title} and turns the environment", holds)
+        picture, size = demo.resize(demo_page.LANDSCAPE)
+        checks.expect(f"page: the canvas is as large as the window, {size}", size == demo_page.LANDSCAPE)
+        checks.expect("page: it shows something there", float(picture.std()) > LEAST_CONTRAST)
+    checks.expect_silence("page", page)
+    page.close()
 
 
 def main():
     parser = argparse.ArgumentParser(allow_abbrev=False)
-    parser.add_argument("--work", type=pathlib.Path, required=True)
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("--scenes", type=pathlib.Path)
+    what.add_argument("--page", type=pathlib.Path)
     options = parser.parse_args()
     checks = Checks()
     try:
         with browser.start_browser() as program:
-            check_gallery(checks, program, options.work)
+            if options.page:
+                check_page(checks, program, options.page)
+            else:
+                check_gallery(checks, program, options.scenes)
     except (browser.PageError, gallery.GalleryError) as error:
         checks.expect(str(error), False)
-    print(f"web: {checks.passed} passed, {checks.failed} failed")
+    print(f"browser: {checks.passed} passed, {checks.failed} failed")
     return 1 if checks.failed else 0
 
 

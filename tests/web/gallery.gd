@@ -1,8 +1,8 @@
 extends Node
-## Draws scenes at one size, one after the other, and prints each as [code]PICTURE NAME PNG[/code], the
-## file in base64: in a browser as on a desktop. Arguments: the scenes' names, all of them if there are
-## none; [code]--moved PIXELS[/code] moves pictures along both axes. Names nothing of the addon, so that
-## exports keep what the scenes need.
+## Draws scenes at one size, one after the other, and prints each as [code]PICTURE NAME PNG[/code],
+## the file in base64: in a browser as on a desktop. Arguments: the scenes' names, all of them if
+## there are none; [code]--moved PIXELS[/code] moves pictures along both axes. Names nothing of the
+## addon, so that exports keep what the scenes need.
 
 const FOLDER := "res://tests/web/scenes/"
 const SIZE := Vector2i(256, 192)

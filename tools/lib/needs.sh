@@ -262,6 +262,15 @@ need_web_template() {
   export WEB_TEMPLATE
 }
 
+# need_browser: Chromium, and PYTHON with what drives it.
+need_browser() {
+  local probes=("file /usr/bin/chromium chromium")
+  if [[ -n $(missing_packages "${probes[@]}") ]]; then
+    install_packages "${probes[@]}"
+  fi
+  need_python web
+}
+
 # need_java: sets and exports JAVA_HOME, a JDK of at least 17, and makes sure of Maven.
 need_java() {
   local probes=("command javac openjdk-17-jdk-headless" "command mvn maven")

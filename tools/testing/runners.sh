@@ -69,12 +69,13 @@ jobs_of() {
         echo "render_$renderer"
       done
       ;;
+    web) printf '%s\n' export_web browser ;;
     *) echo "$1" ;;
   esac
 }
 
 # The runners that take longest begin first, so that none of them is left over at the end.
-LONGEST_FIRST=(render_mobile render_forward_plus render_gl_compatibility export_pictures accuracy export_package
+LONGEST_FIRST=(render_mobile render_forward_plus render_gl_compatibility export_pictures browser accuracy export_package
   report_smoke export_android bench_runtime renderers commands fuzz cpp)
 
 # order_jobs JOB…: prints them, one a line.
@@ -102,7 +103,8 @@ prepare_tests() {
   [[ ! $wanted =~ \ (render_[a-z_]+)\  ]] || bake_demo_tables thesis_8
   [[ $wanted != *" export_package "* ]] || need_package_libraries
   [[ ! $wanted =~ \ export_(android|web)\  ]] || bake_demo_tables "${DEMO_SETS[@]}"
-  [[ $wanted != *" export_web "* ]] || need_web_template
+  [[ ! $wanted =~ \ (export_web|browser)\  ]] || need_web_template
+  [[ ! $wanted =~ \ (export_web|browser)\  ]] || need_browser
   [[ ! $wanted =~ \ (stability|stability_changes)\  ]] || need_python stability
   [[ $wanted != *" crosscheck "* ]] || need_python crosscheck
   [[ ! $wanted =~ \ (report|report_smoke|commands)\  ]] || need_python report
@@ -265,10 +267,18 @@ run_export_android() {
   judge export-android
 }
 
-# The demo as a page for browsers.
+# The demo as a page for browsers, and in one.
 run_export_web() {
   run_logged export-web in_time "$PYTHON" "$ROOT/tests/commands/web_test.py" "$RESULTS/web"
   judge export-web
+  run_logged browser-page in_time "$PYTHON" "$ROOT/tests/commands/browser_test.py" --page "$RESULTS/web"
+  judge browser-page
+}
+
+# Scenes in a browser beside Compatibility here.
+run_browser() {
+  run_logged browser in_time "$PYTHON" "$ROOT/tests/commands/browser_test.py" --scenes "$RESULTS/browser"
+  judge browser
 }
 
 # The reference integrator against Mitsuba 3, small.

@@ -3,10 +3,14 @@
 import contextlib
 import functools
 import http.server
+import io
 import os
+import re
 import threading
 import time
 
+import numpy as np
+from PIL import Image
 from playwright.sync_api import sync_playwright
 
 from serve import Handler
@@ -21,6 +25,12 @@ ARGUMENTS = [
     "--autoplay-policy=no-user-gesture-required",
 ]# What the browser says of the engine's sound, whatever the page shows.
 ENGINE_SAYS = ["The ScriptProcessorNode is deprecated. Use AudioWorkletNode instead. (https://bit.ly/audio-worklet)"]
+# What Chromium says once where a WebGL page reads pixels, as live capture in Compatibility does, and this file's tests.
+READ_BACK = re.compile(
+    r"\[\.WebGL-0x[0-9a-f]+\]GL Driver Message \(OpenGL, Performance, GL_CLOSE_PATH_NV, High\): GPU stall due to ReadPixels"
+    r"( \(this message will no longer repeat\))?"
+)
+DRAG_STEPS = 4
 
 
 class PageError(Exception):
@@ -89,8 +99,34 @@ class Page:
             self.page.wait_for_timeout(100)
 
     def complaints(self):
-        """Errors and warnings on the console but for ENGINE_SAYS."""
-        return [text for kind, text, _when in self.lines if kind in ("error", "warning") and text not in ENGINE_SAYS]
+        """Errors and warnings on the console but for ENGINE_SAYS and what the driver says of pictures that are read back."""
+        said = [text for kind, text, _when in self.lines if kind in ("error", "warning")]
+        return [text for text in said if text not in ENGINE_SAYS and not READ_BACK.fullmatch(text)]
+
+    def picture(self):
+        """What the page shows: (height, width, 3), from 0 to 255."""
+        return np.asarray(Image.open(io.BytesIO(self.page.screenshot(timeout=300_000))).convert("RGB"), dtype=int)
+
+    def drag_by_mouse(self, start, end):
+        mouse = self.page.mouse
+        mouse.move(*start)
+        mouse.down()
+        for step in range(1, DRAG_STEPS + 1):
+            mouse.move(*(a + (b - a) * step / DRAG_STEPS for a, b in zip(start, end)))
+        mouse.up()
+
+    def drag_by_finger(self, start, end):
+        session = self.context.new_cdp_session(self.page)
+
+        def send(kind, *points):
+            touches = [{"x": x, "y": y} for x, y in points]
+            session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+
+        send("touchStart", start)
+        for step in range(1, DRAG_STEPS + 1):
+            send("touchMove", tuple(a + (b - a) * step / DRAG_STEPS for a, b in zip(start, end)))
+        send("touchEnd")
+        session.detach()
 
     def close(self):
         self.context.close()

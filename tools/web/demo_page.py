@@ -1,0 +1,88 @@
+"""The demo's page in a browser: its divider and its first slider, found by their places and judged by pictures."""
+
+import numpy as np
+
+# Portrait: the picture above, the controls below. Small, as it is drawn in software.
+SIZE = (360, 480)
+LANDSCAPE = (480, 300)
+# The first slider, which sets the environment's direction (demo/interface/interface.gd): its row, where its grabber is at the
+# start, and where there is nothing else that is bright.
+SLIDER_ROW = 355
+SLIDER_START = 135
+SLIDER_TRACK = slice(125, 300)
+# Of the picture above the panel, below the divider's handle.
+ABOVE = slice(170, 268)
+# What is above the panel at all.
+PICTURE = slice(0, 268)
+HANDLE_ROW = 139
+# Pixels that things may be off, and what of 255 the line and the grabber have at least.
+NEAR = 8
+BRIGHT = 200
+# Of 255: what a picture that has changed differs by, on average.
+CHANGED = 0.5
+# Until what has been done is in the picture.
+FRAMES = 4
+
+
+class DemoPage:
+    """The demo in a browser.Page of SIZE."""
+
+    def __init__(self, page):
+        self.page = page
+
+    def open(self, address, limit):
+        """Loads it and waits for the first picture, `limit` seconds at most."""
+        self.page.open(f"{address}index.html")
+        script = "!document.getElementById('cover') || document.getElementById('cover').classList.contains('gone')"
+        self.page.page.wait_for_function(script, timeout=1000 * limit)
+        self.wait_for_frames(2)
+
+    def wait_for_frames(self, count):
+        """Until the browser has drawn so many."""
+        script = "n => new Promise(done => { const next = () => n-- > 0 ? requestAnimationFrame(next) : done(); next(); })"
+        self.page.page.evaluate(script, count)
+
+    def picture(self):
+        return self.page.picture()
+
+    def settle(self):
+        """The picture once it shows what has been done."""
+        self.wait_for_frames(FRAMES)
+        return self.picture()
+
+    def show_two_methods(self):
+        self.page.page.keyboard.press("b")
+        return self.settle()
+
+    def try_divider(self, picture, drag, to):
+        """Drags the divider of a picture to a part of the width: whether it was there and is there now, and the picture."""
+        before, there = find_divider(picture), round(to * picture.shape[1])
+        drag((before, HANDLE_ROW), (there, HANDLE_ROW))
+        picture = self.settle()
+        return before >= 0 and abs(find_divider(picture) - there) <= NEAR, picture
+
+    def try_slider(self, picture, drag, to):
+        """Drags the slider to a column: whether its grabber is there and the environment has turned, and the picture."""
+        drag((find_grabber(picture), SLIDER_ROW), (to, SLIDER_ROW))
+        turned = self.settle()
+        changed = float(np.abs(turned[PICTURE] - picture[PICTURE]).mean())
+        return abs(find_grabber(turned) - to) <= NEAR and changed > CHANGED, turned
+
+    def resize(self, size):
+        """The picture in a window of another size, and the canvas's size on the page."""
+        self.page.page.set_viewport_size({"width": size[0], "height": size[1]})
+        picture = self.settle()
+        box = self.page.page.locator("canvas").bounding_box()
+        return picture, (round(box["width"]), round(box["height"]))
+
+
+def find_divider(picture):
+    """The column of the line between the two methods, bright all the way down; -1 if there is none."""
+    columns = np.flatnonzero(np.all(picture[ABOVE].min(axis=-1) > BRIGHT, axis=0))
+    return int(columns.mean()) if columns.size else -1
+
+
+def find_grabber(picture):
+    """The column of the slider's grabber."""
+    columns = np.flatnonzero(picture[SLIDER_ROW, SLIDER_TRACK].min(axis=-1) > BRIGHT)
+    return int(columns.mean()) + SLIDER_TRACK.start if columns.size else SLIDER_START
