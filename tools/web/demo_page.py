@@ -2,26 +2,26 @@
 
 import numpy as np
 
-# Portrait: the picture above, the controls below. Small, as it is drawn in software.
-SIZE = (360, 480)
-LANDSCAPE = (480, 300)
-# The first slider, which sets the environment's direction (demo/interface/interface.gd): its row, where its grabber is at the
-# start, and where there is nothing else that is bright.
-SLIDER_ROW = 355
-SLIDER_START = 135
-SLIDER_TRACK = slice(125, 300)
-# Of the picture above the panel, below the divider's handle.
-ABOVE = slice(170, 268)
-# What is above the panel at all.
-PICTURE = slice(0, 268)
-HANDLE_ROW = 139
+# Small, as it is drawn in software: the panel of controls leaves little of the picture.
+SIZE = (360, 200)
+PORTRAIT = (200, 300)
+# The first slider, which sets the environment's direction (demo/interface/interface.gd): its row, a row of its grabber where the
+# track is not, where the grabber is at the start, and the columns in which it moves.
+SLIDER_ROW = 145
+GRABBER_ROW = 138
+SLIDER_START = 141
+SLIDER_TRACK = slice(131, 290)
+# Rows of the divider's line below its handle, the handle's, and rows that the panel leaves free.
+LINE = slice(125, 198)
+HANDLE_ROW = 100
+FREE = slice(190, 200)
 # Pixels that things may be off, and what of 255 the line and the grabber have at least.
 NEAR = 8
 BRIGHT = 200
 # Of 255: what a picture that has changed differs by, on average.
 CHANGED = 0.5
 # Until what has been done is in the picture.
-FRAMES = 4
+FRAMES = 3
 
 
 class DemoPage:
@@ -45,13 +45,15 @@ class DemoPage:
     def picture(self):
         return self.page.picture()
 
-    def settle(self):
+    def settle(self, frames=FRAMES):
         """The picture once it shows what has been done."""
-        self.wait_for_frames(FRAMES)
+        self.wait_for_frames(frames)
         return self.picture()
 
-    def show_two_methods(self):
-        self.page.page.keyboard.press("b")
+    def press(self, *keys):
+        """The picture after keys of the demo: H folds the panel, L takes other lobes, B another second method."""
+        for key in keys:
+            self.page.page.keyboard.press(key)
         return self.settle()
 
     def try_divider(self, picture, drag, to):
@@ -65,7 +67,7 @@ class DemoPage:
         """Drags the slider to a column: whether its grabber is there and the environment has turned, and the picture."""
         drag((find_grabber(picture), SLIDER_ROW), (to, SLIDER_ROW))
         turned = self.settle()
-        changed = float(np.abs(turned[PICTURE] - picture[PICTURE]).mean())
+        changed = float(np.abs(turned[FREE] - picture[FREE]).mean())
         return abs(find_grabber(turned) - to) <= NEAR and changed > CHANGED, turned
 
     def resize(self, size):
@@ -78,11 +80,11 @@ class DemoPage:
 
 def find_divider(picture):
     """The column of the line between the two methods, bright all the way down; -1 if there is none."""
-    columns = np.flatnonzero(np.all(picture[ABOVE].min(axis=-1) > BRIGHT, axis=0))
+    columns = np.flatnonzero(np.all(picture[LINE].min(axis=-1) > BRIGHT, axis=0))
     return int(columns.mean()) if columns.size else -1
 
 
 def find_grabber(picture):
     """The column of the slider's grabber."""
-    columns = np.flatnonzero(picture[SLIDER_ROW, SLIDER_TRACK].min(axis=-1) > BRIGHT)
+    columns = np.flatnonzero(picture[GRABBER_ROW, SLIDER_TRACK].max(axis=-1) > BRIGHT)
     return int(columns.mean()) + SLIDER_TRACK.start if columns.size else SLIDER_START
