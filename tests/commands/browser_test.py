@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """A headless Chromium that draws in software: scenes beside Compatibility on this machine, and the demo's page.
 
-browser_test.py --scenes DIR | --page DIR: the scenes' project is made in DIR, where GODOT names the engine and WEB_TEMPLATE the
-folder of its Web template; the page is of ./dev web.
+browser_test.py --scenes DIR | --page DIR [--controls]: the scenes' project is made in DIR, where GODOT names the engine and WEB_TEMPLATE the
+folder of its Web template; the page is of ./dev web. --controls, which takes minutes, also drags the divider and a slider.
 """
 
 import argparse
@@ -64,29 +64,35 @@ def check_gallery(checks, program, work):
     checks.expect(f"own: {apart}/255 from LobeMaterial3D's picture at most, {MOST_APART} wanted", apart <= MOST_APART)
 
 
-def check_page(checks, program, folder):
-    """The demo loads, and follows the mouse and a finger."""
+def check_page(checks, program, folder, with_controls):
+    """The demo loads and shows something; its controls follow the mouse and a finger."""
     with browser.serve(folder) as address:
         page = browser.Page(program, size=demo_page.SIZE, has_touch=True)
         demo = demo_page.DemoPage(page)
         demo.open(address, LIMIT)
         picture = demo.picture()
         checks.expect("page: the first picture shows something", float(picture.std()) > LEAST_CONTRAST)
-        # Fewer lobes, of which frames take less time.
-        checks.expect("page: one method has no divider", demo_page.find_divider(demo.press("l", "l", "h")) < 0)
-        picture = demo.press("b")
-        for title, drag, to in (("mouse", page.drag_by_mouse, 0.3), ("finger", page.drag_by_finger, 0.7)):
-            holds, picture = demo.try_divider(picture, drag, to)
-            checks.expect(f"page: the divider follows the {title}", holds)
-        picture = demo.press("h")
-        for title, drag, to in (("mouse", page.drag_by_mouse, 180), ("finger", page.drag_by_finger, 230)):
-            holds, picture = demo.try_slider(picture, drag, to)
-            checks.expect(f"page: a slider follows the {title} and turns the environment", holds)
-        picture, size = demo.resize(demo_page.PORTRAIT)
-        checks.expect(f"page: the canvas is as large as the window, {size}", size == demo_page.PORTRAIT)
-        checks.expect("page: it shows something there", float(picture.std()) > LEAST_CONTRAST)
+        if with_controls:
+            check_controls(checks, page, demo)
     checks.expect_silence("page", page)
     page.close()
+
+
+def check_controls(checks, page, demo):
+    """The divider and a slider, dragged, and a window of another size."""
+    # Fewer lobes, of which frames take less time.
+    checks.expect("page: one method has no divider", demo_page.find_divider(demo.press("l", "l", "h")) < 0)
+    picture = demo.press("b")
+    for title, drag, to in (("mouse", page.drag_by_mouse, 0.3), ("finger", page.drag_by_finger, 0.7)):
+        holds, picture = demo.try_divider(picture, drag, to)
+        checks.expect(f"page: the divider follows the {title}", holds)
+    picture = demo.press("h")
+    for title, drag, to in (("mouse", page.drag_by_mouse, 180), ("finger", page.drag_by_finger, 230)):
+        holds, picture = demo.try_slider(picture, drag, to)
+        checks.expect(f"page: a slider follows the {title} and turns the environment", holds)
+    picture, size = demo.resize(demo_page.PORTRAIT)
+    checks.expect(f"page: the canvas is as large as the window, {size}", size == demo_page.PORTRAIT)
+    checks.expect("page: it shows something there", float(picture.std()) > LEAST_CONTRAST)
 
 
 def main():
@@ -94,12 +100,13 @@ def main():
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--scenes", type=pathlib.Path)
     what.add_argument("--page", type=pathlib.Path)
+    parser.add_argument("--controls", action="store_true")
     options = parser.parse_args()
     checks = Checks()
     try:
         with browser.start_browser() as program:
             if options.page:
-                check_page(checks, program, options.page)
+                check_page(checks, program, options.page, options.controls)
             else:
                 check_gallery(checks, program, options.scenes)
     except (browser.PageError, gallery.GalleryError) as error:
