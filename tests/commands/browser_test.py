@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """A headless Chromium that draws in software: scenes beside Compatibility on this machine, and the demo's page.
 
-browser_test.py --scenes DIR | --page DIR [--controls]: the scenes' project is made in DIR, where GODOT names the engine and WEB_TEMPLATE the
-folder of its Web template; the page is of ./dev web. --controls, which takes minutes, also drags the divider and a slider.
+browser_test.py --scenes DIR | --page DIR [--controls]: the scenes' project is made in DIR, where GODOT names the engine and
+WEB_TEMPLATE the folder of its Web template; the page is of ./dev web. --controls, which takes minutes, also drags the divider and a
+slider.
 """
 
 import argparse
