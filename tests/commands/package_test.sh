@@ -65,6 +65,7 @@ only_the_addon() {
   local names
   names=$("$PYTHON" -c 'import sys, zipfile; print(*zipfile.ZipFile(sys.argv[1]).namelist(), sep="\n")' "$package")
   grep -qx 'addons/lobelight/runtime/material/lobe_material_3d.gd' <<<"$names" \
+    && grep -qx 'addons/lobelight/lobelight.gdshaderinc' <<<"$names" \
     && grep -qx 'addons/lobelight/bin/LICENCES.txt' <<<"$names" \
     && ! grep -vE '^addons/lobelight/(runtime|editor|tables|icons|bin)/|^addons/lobelight/[^/]+$' <<<"$names" \
     && ! grep -E '_test\.gd|doc_classes|\.o$' <<<"$names"
