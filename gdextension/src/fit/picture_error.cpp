@@ -215,7 +215,7 @@ PictureError::PictureError(const Brdf& brdf, const glm::ivec2& views, int thread
   }
   for (std::size_t light = 0; light < kLights; ++light) {
     const LightMap map(made_up_light(light), threads, progress);
-    progress.set((static_cast<double>(light) + 0.5) / kLights);
+    progress.set((static_cast<double>(light) + 0.5) / static_cast<double>(kLights));
     parallel_for(views_.size(), threads, progress, [&](std::size_t i) {
       View& view = views_[i];
       const Slice slice = sample_slice(brdf, view.direction, kNodesPerAxis, kRotation);
@@ -238,7 +238,7 @@ PictureError::PictureError(const Brdf& brdf, const glm::ivec2& views, int thread
         view.samples[turn].shown = show(exposures_[light] * view.samples[turn].shown);
       }
     }
-    progress.set((static_cast<double>(light) + 1.0) / kLights);
+    progress.set((static_cast<double>(light) + 1.0) / static_cast<double>(kLights));
   }
 }
 
