@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# builds the demo as a page for browsers, a folder for any host ([--out DIR]); --serve [PORT] opens it on this machine
+# builds the demo as a page for browsers, a folder for any host ([--out DIR]); --serve [PORT] serves it on this machine
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/demo_tables.sh
 source "$ROOT/tools/lib/demo_tables.sh"

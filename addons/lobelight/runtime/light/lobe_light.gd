@@ -149,7 +149,8 @@ static func make_constant(colour: Color, even: bool) -> LobeLight:
 ## Gives a material of your own the light of where it is, and the lobes that its shader draws: from
 ## now on it shows what a [LobeMaterial3D] does, whatever [LobeEnvironment3D] and [LobeProbe3D]s
 ## there are, until [method unbind] or until it is freed. Its shader is to include
-## [code]res://addons/lobelight/lobelight.gdshaderinc[/code], which describes the functions.
+## [code]res://addons/lobelight/lobelight.gdshaderinc[/code], which describes the functions, or to
+## be a [VisualShader] with a node [i]Lobelight[/i].
 ## [br][br]
 ## The lobes are those of GGX, or of [param tables], a [LobeTableSet]. With [param shown] the
 ## material shows that light wherever it is, as with [member LobeMaterial3D.light]. Who is bound
