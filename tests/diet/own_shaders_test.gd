@@ -34,6 +34,18 @@ const SHADERS := [
 	["#ifdef A ; #define LOBELIGHT_ISOTROPIC ; #endif ; " + INCLUDE, true, false, true],
 	["#ifdef A ; #define LOBELIGHT_ISOTROPIC ; %s ; #endif" % INCLUDE, false, false, false],
 	["#ifdef A ; #define LOBELIGHT_ISOTROPIC ; #else ; %s ; #endif" % INCLUDE, true, false, true],
+	[
+		(
+			"#ifdef A ; #define LOBELIGHT_ISOTROPIC ; "
+			+ INCLUDE
+			+ " ; #else ; "
+			+ INCLUDE
+			+ " ; #endif"
+		),
+		true,
+		false,
+		true
+	],
 	['#include "user://own_outer.gdshaderinc"', false, false, false],
 	['#include "own_outer.gdshaderinc" ; ' + SCATTER, false, true, false],
 	['#include "uid://bo3opf488xa4o" ; // ' + SCATTER, true, false, true],
@@ -162,7 +174,7 @@ func test_nodes_of_visual_shaders_say_what_they_need() -> void:
 		shader.connect_nodes(VisualShader.TYPE_FRAGMENT, 2, 1, 0, 5)
 		var material := LobeShaderMaterial.new()
 		material.shader = shader
-		var diet := _diet([_save(material, "user://own.tres")])
+		var diet := _diet([_save(material, "user://own_%s.tres" % brushing)])
 		_expect_needs(diet, brushing > 0.0, false, brushing > 0.0)
 		assert_bool(_is_kept(diet, "runtime/visual_shader/nodes.gdshaderinc")).is_true()
 		assert_bool(_is_kept(diet, "runtime/visual_shader/reflection_node.gd")).is_true()
@@ -176,6 +188,8 @@ func test_what_scripts_write_may_be_any_shader() -> void:
 	for line: String in [INCLUDE.c_escape(), '#include \\"user://own_outer.gdshaderinc\\"']:
 		var text := BINDER + '\tmaterial.shader.code = "%s"\n' % line
 		_expect_needs(_diet([_write("user://own.gd", text), outer]), true, true, true)
+	var graph := BINDER + "\tgraph.add_node(0, VisualShaderNodeLobelightSurface.new(), at, 2)\n"
+	_expect_needs(_diet([_write("user://own.gd", graph)]), true, true, true)
 	# So may be those that include what no shader of the project does.
 	_expect_needs(_diet([_write("user://own.gd", BINDER), outer]), true, true, true)
 

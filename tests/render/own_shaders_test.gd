@@ -122,6 +122,14 @@ func test_the_light_is_followed_until_unbound() -> void:
 	assert_float(await _middle_of(own)).is_equal_approx(0.0, 0.001)
 	LobeLight.bind(own)
 	assert_float(await _middle_of(own)).is_equal_approx(0.5, 0.004)
+	# Before the binding has looked at it.
+	own.shader = Shader.new()
+	own.shader.code = METAL.replace("lobelight_emission(light)", "lobelight_emission(light + 0.25)")
+	LobeLight.unbind(own)
+	assert_float(await _middle_of(own)).is_equal_approx(0.25, 0.002)
+	var fleeting := _own(METAL)
+	LobeLight.unbind(fleeting)
+	assert_float(await _middle_of(fleeting)).is_equal_approx(0.0, 0.001)
 
 
 func test_other_shaders_and_other_code_are_followed() -> void:

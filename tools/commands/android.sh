@@ -78,7 +78,7 @@ check() {
 
 export_pack() {
   rm -f "$out/lobelight.pck"
-  quiet_engine "$GODOT" --headless --path "$ROOT" --export-pack Android "$out/lobelight.pck"
+  quiet_engine flock --close "$EXPORT_LOCK" "$GODOT" --headless --path "$ROOT" --export-pack Android "$out/lobelight.pck"
 }
 
 list_pack() {
@@ -120,7 +120,7 @@ export_apk() {
   rm -f "$out/lobelight.apk" "$out/lobelight.apk.idsig"
   use_keystore
   XDG_CONFIG_HOME=$home/config XDG_DATA_HOME=$home/data \
-    quiet_engine "$GODOT" --headless --path "$ROOT" --export-release Android "$out/lobelight.apk" || status=$?
+    quiet_engine flock --close "$EXPORT_LOCK" "$GODOT" --headless --path "$ROOT" --export-release Android "$out/lobelight.apk" || status=$?
   return "$status"
 }
 

@@ -73,6 +73,9 @@ bake_demo_tables "${DEMO_SETS[@]}"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 say "Exporting the demo …"
+# Until the export's report has been read.
+exec 8>"$EXPORT_LOCK"
+flock 8
 quiet_engine "$GODOT" --headless --path "$ROOT" --export-pack Web "$work/index.pck" >"$work/export.log" || {
   tail -n 15 "$work/export.log" >&2
   die "web: the export failed, or wrote an error or a warning"
@@ -86,6 +89,7 @@ godot_headless --no-header --script res://tools/web/licences.gd -- "$work/engine
   --pack "$work/index.pck" --pictures "$ROOT/addons/lobelight/icons/lobelight.svg" "$ROOT/docs/pictures/demo.png" \
   --licences "$ROOT/LICENSE" "$work/engine.txt" --report "$ROOT/.godot/lobelight_export.json" \
   --out "$out" ${json:+--json "$json"}
+flock --unlock 8
 say "$out"
 if [[ -n $port ]]; then
   rm -rf "$work"

@@ -14,6 +14,9 @@ quiet_engine() {
   return "$status"
 }
 
+# What exports of the repository's project hold while they run: they share files in .godot.
+EXPORT_LOCK=$ROOT/.godot/export.lock
+
 # expect_pack FILE OPTION…: checks the list of files in an exported pack; see tools/android/pack_files.py.
 expect_pack() {
   "$PYTHON" "$ROOT/tools/android/pack_files.py" "$@"

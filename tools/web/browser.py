@@ -23,7 +23,8 @@ ARGUMENTS = [
     "--ignore-gpu-blocklist",
     "--disable-dev-shm-usage",
     "--autoplay-policy=no-user-gesture-required",
-]# What the browser says of the engine's sound, whatever the page shows.
+]
+# What the browser says of the engine's sound, whatever the page shows.
 ENGINE_SAYS = ["The ScriptProcessorNode is deprecated. Use AudioWorkletNode instead. (https://bit.ly/audio-worklet)"]
 # What Chromium says once where a WebGL page reads pixels, as live capture in Compatibility does, and this file's tests.
 READ_BACK = re.compile(

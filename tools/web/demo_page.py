@@ -1,6 +1,8 @@
 """The demo's page in a browser: its divider and its first slider, found by their places and judged by pictures."""
 
 import numpy as np
+from browser import PageError
+from playwright.sync_api import TimeoutError
 
 # Small, as it is drawn in software: the panel of controls leaves little of the picture.
 SIZE = (360, 200)
@@ -33,8 +35,13 @@ class DemoPage:
     def open(self, address, limit):
         """Loads it and waits for the first picture, `limit` seconds at most."""
         self.page.open(f"{address}index.html")
-        script = "!document.getElementById('cover') || document.getElementById('cover').classList.contains('gone')"
-        self.page.page.wait_for_function(script, timeout=1000 * limit)
+        script = "document.querySelector('#cover.gone, #state.problem') || !document.getElementById('cover')"
+        try:
+            self.page.page.wait_for_function(script, timeout=1000 * limit)
+        except TimeoutError as error:
+            raise PageError(f"the page showed nothing in {limit} s") from error
+        if problem := self.page.page.evaluate("document.querySelector('#state.problem')?.textContent"):
+            raise PageError(f"the page says: {problem}")
         self.wait_for_frames(2)
 
     def wait_for_frames(self, count):

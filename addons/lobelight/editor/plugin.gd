@@ -118,6 +118,8 @@ func _exit_tree() -> void:
 	_light_inspector = null
 	remove_inspector_plugin(_normal_variance)
 	_normal_variance = null
+	remove_inspector_plugin(_own_shaders)
+	_own_shaders = null
 	_light_dialog.queue_free()
 	# It lives until a capture under way has ended.
 	_light_bakes.cancel_all()

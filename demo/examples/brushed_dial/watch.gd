@@ -25,7 +25,7 @@ func _process(delta: float) -> void:
 
 
 func _show() -> void:
-	_watch.rotation.y = swing * sin(TAU * _passed / period)
+	_watch.rotation.y = swing * sin(TAU * _passed / period) if period > 0.0 else 0.0
 	# Clocks turn the other way round than angles.
 	var time := start + _passed
 	_hours.rotation.z = -TAU * time / 43200.0

@@ -122,6 +122,8 @@
   say("Loading …", 0);
   engine.startGame().then(() => {
     started = true;
-    cover.classList.add("gone");
+    if (!failed) {
+      cover.classList.add("gone");
+    }
   }, showFailure);
 })();

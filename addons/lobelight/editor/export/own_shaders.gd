@@ -46,6 +46,8 @@ class Reading:
 	var defines: Dictionary[String, Array] = {}
 	var found := Found.new()
 	var read: Dictionary[String, bool] = {}
+	## The project's includes around the line.
+	var within: PackedStringArray = []
 
 	func _init() -> void:
 		found.is_lit = false
@@ -83,6 +85,10 @@ var _writers: PackedStringArray = []
 var _directive := RegEx.create_from_string("^\\s*#\\s*(\\w+)\\s*(.*?)\\s*$")
 var _scattering := RegEx.create_from_string("\\blobelight_(diffuse|surface|gather)\\b")
 var _named := RegEx.create_from_string("[\\w./:]+\\.gdshaderinc\\b|uid://\\w+")
+# What may build graphs.
+var _node := RegEx.create_from_string(
+	"\\bVisualShaderNodeLobelight\\w+|/visual_shader/\\w+_node\\.gd"
+)
 
 
 ## A .gdshader or .gdshaderinc.
@@ -111,6 +117,8 @@ func look_at_material(material: LobeShaderMaterial) -> void:
 
 ## A line of a script, which may have the text of a shader.
 func read_line(file: String, line: String) -> void:
+	if file not in _writers and _node.search(line) != null:
+		_writers.append(file)
 	for found in _named.search_all(line):
 		if file not in _writers and _leads(_find_path(found.get_string(), file)):
 			_writers.append(file)
@@ -205,17 +213,25 @@ func _follow(directive: String, rest: String, path: String, reading: Reading) ->
 
 
 func _include(path: String, reading: Reading) -> void:
-	if path == INCLUDE and not reading.found.is_lit:
-		reading.found.is_lit = true
-		reading.found.is_isotropic = reading.get_value(ISOTROPIC) != null
+	if path == INCLUDE:
+		var is_isotropic := reading.get_value(ISOTROPIC) != null
 		var quality: Variant = reading.get_value(QUALITY)
 		var is_few: bool = quality is String and quality.is_valid_int() and int(quality) <= FEWEST
-		reading.found.has_line = not (reading.found.is_isotropic or is_few)
-	# The engine includes each file once.
-	elif not path.begins_with(ADDON) and not reading.read.has(path):
+		var has_line := not (is_isotropic or is_few)
+		# Branches may each have one; that a file includes it twice changes nothing.
+		var is_first := not reading.found.is_lit
+		reading.found.is_lit = true
+		if is_first or not reading.branches.is_empty():
+			var found := reading.found
+			found.is_isotropic = is_isotropic and (is_first or found.is_isotropic)
+			found.has_line = has_line or not is_first and found.has_line
+	# The engine includes a file once in a branch.
+	elif not path.begins_with(ADDON) and path not in reading.within:
 		reading.read[path] = true
+		reading.within.append(path)
 		if FileAccess.file_exists(path):
 			_read(FileAccess.get_file_as_string(path), path, reading)
+		reading.within.remove_at(reading.within.size() - 1)
 
 
 # Whether a file is the addon's include, or includes it.

@@ -122,10 +122,7 @@ static func set_own_light(material: RID, light: LobeLight) -> void:
 	var problem := light.get_problem() if light != null else ""
 	if problem:
 		push_error(
-			(
-				"LobeMaterial3D: %s: %s"
-				% [light.resource_path if light.resource_path else "Light", problem]
-			)
+			"Lobelight: %s: %s" % [light.resource_path if light.resource_path else "Light", problem]
 		)
 	elif light != null and light.has_box():
 		_load_places()

@@ -42,7 +42,7 @@ var brdf := ""
 ## Whether there can be any, with other widths.
 var is_possible := false
 
-var _ratios := Vector2.ZERO
+var _ratios: Vector2 = _RATIOS["ggx"]
 var _most := 0
 var _can_be_narrower := false
 var _can_be_rounder := false

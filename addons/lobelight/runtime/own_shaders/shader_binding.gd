@@ -77,6 +77,7 @@ static func bind(material: ShaderMaterial, tables: LobeTableSet, light: LobeLigh
 		# The bound argument is what keeps the binding.
 		material.changed.connect(binding._follow.bind(binding))
 	binding._tables = tables
+	binding._is_told = false
 	_mutex.unlock()
 	if is_new:
 		LightRegistry.add_material(binding._rid, binding._queue)
@@ -141,12 +142,14 @@ func _update() -> void:
 		_variant = null
 		return
 	if not takes_light(_shader):
-		_complain(material)
+		_show_as_written(material)
 		return
 	var defines := _find_defines()
-	_variant = null
+	# The one before lives until there is another: the same code is compiled once.
+	var variant: Shader = null
 	if _NODES in _shader.code or not defines.is_empty():
-		_variant = ShaderVariants.fetch(_get_code(defines))
+		variant = ShaderVariants.fetch(_get_code(defines))
+	_variant = variant
 	var parameters := _list_parameters(_get_shown())
 	_give_lobes(parameters[_TABLE] if parameters.has(_TABLE) else "")
 	RenderingServer.material_set_shader(_rid, _get_shown().get_rid())
@@ -184,16 +187,10 @@ func _give_lobes(kind: String) -> void:
 		return
 	var is_isotropic := "3D" not in kind
 	var problem := WidthsTexture.find_problem(tables.widths, is_isotropic)
+	if problem.is_empty() and not is_isotropic and tables.is_isotropic():
+		problem = "The set has isotropic lobes only; #define LOBELIGHT_ISOTROPIC."
 	if not problem.is_empty():
-		push_error("LobeLight.bind: %s: %s" % [tables.resource_path, problem])
-		return
-	if not is_isotropic and tables.is_isotropic():
-		push_error(
-			(
-				"LobeLight.bind: %s has isotropic lobes only; #define LOBELIGHT_ISOTROPIC."
-				% tables.resource_path
-			)
-		)
+		_complain("%s: %s" % [tables.resource_path, problem])
 		return
 	_texture = tables.get_widths_texture(is_isotropic)
 	var given: Dictionary[StringName, Variant] = {
@@ -262,34 +259,41 @@ func _get_code(defines: PackedStringArray) -> String:
 	return code
 
 
-func _complain(material: ShaderMaterial) -> void:
-	if _is_told:
+# A shader that takes no light, or does not compile, which the engine has said.
+func _show_as_written(material: ShaderMaterial) -> void:
+	_variant = null
+	RenderingServer.material_set_shader(_rid, _shader.get_rid())
+	if "#include" in _shader.code and _list_parameters(_shader).is_empty():
 		return
-	_is_told = true
-	push_error(
+	_complain(
 		(
-			(
-				"LobeLight.bind: the shader of %s does not include"
-				+ " res://addons/lobelight/lobelight.gdshaderinc."
-			)
+			("the shader of %s does not include" + " res://addons/lobelight/lobelight.gdshaderinc.")
 			% (material.resource_path if material.resource_path else "a material")
 		)
 	)
 
 
+# Once, until the shader or the set is another one.
+func _complain(problem: String) -> void:
+	if not _is_told:
+		push_error("LobeLight.bind: " + problem)
+	_is_told = true
+
+
 func _end(material: ShaderMaterial) -> void:
-	var shown := _get_shown()
 	var rid := _rid
 	_forget(rid)
 	_rid = RID()
 	material.changed.disconnect(_follow)
-	if _shader == null:
-		return
-	_shader.changed.disconnect(_read_again)
-	RenderingServer.material_set_shader(rid, _shader.get_rid())
-	for name in _list_parameters(shown):
-		if name.begins_with(_PREFIX):
-			RenderingServer.material_set_param(rid, name, null)
+	if _shader != null:
+		_shader.changed.disconnect(_read_again)
+	# The material's own may be another one since the last update.
+	var own := material.shader
+	RenderingServer.material_set_shader(rid, own.get_rid() if own != null else RID())
+	for shader: Shader in [own, _variant]:
+		for name in _list_parameters(shader) if shader != null else {}:
+			if name.begins_with(_PREFIX):
+				RenderingServer.material_set_param(rid, name, null)
 
 
 static func _forget(rid: RID) -> void:
