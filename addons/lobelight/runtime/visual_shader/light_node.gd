@@ -50,11 +50,12 @@ class Port:
 		return Port.new(named, VisualShaderNode.PORT_TYPE_SCALAR, typed, "%.5f" % typed)
 
 
-# The editor asks for the values by itself, scripts that make nodes do not.
+# The editor asks for the values by itself, scripts that make nodes do not. Those of a file are
+# there before the script is.
 func _init() -> void:
 	var ports := _list_inputs()
 	for port in ports.size():
-		if ports[port].value != null:
+		if ports[port].value != null and get_input_port_default_value(port) == null:
 			set_input_port_default_value(port, ports[port].value)
 
 
