@@ -122,7 +122,10 @@ static func set_own_light(material: RID, light: LobeLight) -> void:
 	var problem := light.get_problem() if light != null else ""
 	if problem:
 		push_error(
-			"Lobelight: %s: %s" % [light.resource_path if light.resource_path else "Light", problem]
+			(
+				"LobeMaterial3D: %s: %s"
+				% [light.resource_path if light.resource_path else "Light", problem]
+			)
 		)
 	elif light != null and light.has_box():
 		_load_places()
