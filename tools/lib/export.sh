@@ -15,6 +15,7 @@ quiet_engine() {
 }
 
 # What exports of the repository's project hold while they run: they share files in .godot.
+# shellcheck disable=SC2034 # used by those who source this file
 EXPORT_LOCK=$ROOT/.godot/export.lock
 
 # expect_pack FILE OPTION…: checks the list of files in an exported pack; see tools/android/pack_files.py.
