@@ -20,6 +20,7 @@ CLASSES = {
     "LobeMaterial3D",
     "LobeProbe3D",
     "LobeReference",
+    "LobeShaderMaterial",
     "LobeTable",
     "LobeTableSet",
     "LobeTask",
