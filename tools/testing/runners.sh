@@ -269,9 +269,11 @@ run_export_android() {
 
 # The demo as a page for browsers, and in one.
 run_export_web() {
-  run_logged export-web in_time "$PYTHON" "$ROOT/tests/commands/web_test.py" "$RESULTS/web"
+  # Beside the page lies what it weighs; results are not in this folder.
+  mkdir -p "$RESULTS/web"
+  run_logged export-web in_time "$PYTHON" "$ROOT/tests/commands/web_test.py" "$RESULTS/web/page"
   judge export-web
-  run_logged browser-page in_time "$PYTHON" "$ROOT/tests/commands/browser_test.py" --page "$RESULTS/web"
+  run_logged browser-page in_time "$PYTHON" "$ROOT/tests/commands/browser_test.py" --page "$RESULTS/web/page"
   judge browser-page
 }
 
