@@ -1,5 +1,6 @@
 """Tests of shader_names.py on includes of a few lines."""
 
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -49,4 +50,8 @@ class ShaderNames(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    outcome = unittest.main(exit=False, verbosity=2).result
+    wrong = len(outcome.failures) + len(outcome.errors)
+    sys.stderr.flush()
+    print(f"shader-names: {outcome.testsRun - wrong} passed, {wrong} failed")
+    sys.exit(1 if wrong else 0)
