@@ -193,6 +193,9 @@ refuses "web, JSON in a missing folder" "missing/a.json" web --json missing/a.js
 refuses "web, a port that is none" "not 'here'" web --serve here
 refuses "web, a port beyond the last" "not '65536'" web --serve 65536
 refuses "web, headers without a server" "--isolated goes with --serve" web --isolated
+refuses "web-check, an unknown option" "--colour" web-check --colour red
+refuses "web-check, an output that is a file" "is not a folder" web-check --out "$environment"
+refuses "web-check, JSON in a missing folder" "missing/a.json" web-check --json missing/a.json
 refuses "diet, nothing to look at" "SCENE|PROJECT" diet
 refuses "diet, a scene that is not there" "absent.tscn" diet absent.tscn
 refuses "diet, a file that is no scene" "is not a scene" diet "$root/README.md"
