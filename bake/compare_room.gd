@@ -181,9 +181,9 @@ func _read_wall(value: Variant, key: String) -> void:
 		return
 	var width: int = picture["width"]
 	var height: int = picture["height"]
-	if maxi(width, height) > Comparison.LARGEST_TEXTURE:
+	if maxi(width, height) > NativeLibrary.LARGEST_TEXTURE:
 		var text := "%s is %s: has %d texels along a side; a texture holds %d."
-		_fail(text % [key, file, maxi(width, height), Comparison.LARGEST_TEXTURE])
+		_fail(text % [key, file, maxi(width, height), NativeLibrary.LARGEST_TEXTURE])
 		return
 	for remark: String in picture["warnings"] + picture["notes"]:
 		# A wall may have any proportions.

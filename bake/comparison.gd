@@ -11,8 +11,6 @@ const TIMING_ROUNDS := 15
 ## Pixels along the side where times are measured. What a renderer spends on any frame weighs less
 ## than on smaller ones.
 const TIMING_SIZE := 256
-## Texels along a side of what graphics cards take as a texture.
-const LARGEST_TEXTURE := 16384
 # The name of the sphere that reflects nothing, among the measured ones; no method has it.
 const _EMPTY := ""
 
@@ -67,9 +65,9 @@ static func load_panorama(path: String) -> Dictionary:
 	if panorama.has("error"):
 		return panorama
 	var side := maxi(panorama["width"] as int, panorama["height"] as int)
-	if side > LARGEST_TEXTURE:
+	if side > NativeLibrary.LARGEST_TEXTURE:
 		var text := "%s: has %d texels along a side; a texture holds %d"
-		return {"error": text % [path, side, LARGEST_TEXTURE]}
+		return {"error": text % [path, side, NativeLibrary.LARGEST_TEXTURE]}
 	var remarks: PackedStringArray = []
 	for remark: String in panorama["warnings"] + panorama["notes"]:
 		remarks.append("%s: %s." % [path, remark])

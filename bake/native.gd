@@ -2,6 +2,9 @@ class_name NativeLibrary
 extends RefCounted
 ## The editor library's classes, reached by name so that these scripts also parse without it.
 
+## Texels along a side of what graphics cards take as a texture.
+const LARGEST_TEXTURE := 16384
+
 
 ## A new object of a native class; ends the program with one line where the library is missing.
 static func create(native_class: StringName) -> RefCounted:

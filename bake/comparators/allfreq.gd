@@ -28,7 +28,7 @@ static func make(count: int) -> ComparisonMethod:
 
 
 func prepare(stage: ComparisonStage) -> String:
-	var problem := Microfacet.find_problem(self)
+	var problem := Microfacet.find_problem(name, brdf)
 	if problem.is_empty():
 		problem = _place_one() if lobes == 1 else _fit()
 	if not problem.is_empty():
@@ -39,7 +39,7 @@ func prepare(stage: ComparisonStage) -> String:
 
 
 func make_sphere() -> MeshInstance3D:
-	var defines := Microfacet.get_defines(self)
+	var defines := Microfacet.get_defines(brdf, alpha)
 	defines.append("ALLFREQ_LOBES %d" % lobes)
 	var parameters := {&"microfacet_alpha": Vector2(alpha[0], alpha[1])}
 	if lobes == 1:

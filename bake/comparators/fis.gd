@@ -35,7 +35,7 @@ static func make(count: int, own_pyramid: bool) -> ComparisonMethod:
 
 
 func prepare(stage: ComparisonStage) -> String:
-	var problem := Microfacet.find_problem(self)
+	var problem := Microfacet.find_problem(name, brdf)
 	if not problem.is_empty():
 		return problem
 	_form = stage.fis_form
@@ -54,7 +54,7 @@ func make_sphere() -> MeshInstance3D:
 ## The mean over [param count] of the samples, from the one with the index [param first]. Parts make
 ## up pictures of more samples than one shader can have: see [method constants].
 func make_part(first: int, count: int) -> MeshInstance3D:
-	var defines := Microfacet.get_defines(self)
+	var defines := Microfacet.get_defines(brdf, alpha)
 	defines.append("FIS_SAMPLES %d" % count)
 	defines.append("FIS_SAMPLES_OF_ALL %d" % samples)
 	if _form != "published":

@@ -13,7 +13,7 @@ var _filter := ""
 
 
 func prepare(stage: ComparisonStage) -> String:
-	var problem := Microfacet.find_problem(self)
+	var problem := Microfacet.find_problem(name, brdf)
 	if not problem.is_empty():
 		return problem
 	_filter = stage.filter
@@ -38,4 +38,6 @@ func _make_line_sphere(
 	var parameters := LineLobes.get_parameters(LOBES, is_ggx)
 	parameters[&"microfacet_alpha"] = Vector2(alpha[0], alpha[1])
 	parameters.merge(own)
-	return ComparisonSphere.make(path, function, Microfacet.get_defines(self), parameters, _light)
+	return ComparisonSphere.make(
+		path, function, Microfacet.get_defines(brdf, alpha), parameters, _light
+	)

@@ -36,7 +36,7 @@ static func make(count: int) -> ComparisonMethod:
 
 
 func prepare(stage: ComparisonStage) -> String:
-	var problem := Microfacet.find_problem(self)
+	var problem := Microfacet.find_problem(name, brdf)
 	if not problem.is_empty():
 		return problem
 	# Texels half as wide as the panorama's.
@@ -51,7 +51,7 @@ func prepare(stage: ComparisonStage) -> String:
 
 
 func make_sphere() -> MeshInstance3D:
-	var defines := Microfacet.get_defines(self)
+	var defines := Microfacet.get_defines(brdf, alpha)
 	defines.append("MAJOR_AXIS_SAMPLES %d" % samples)
 	var parameters := AlbedoTable.get_parameters(brdf, alpha)
 	parameters[&"lobelight_environment"] = _map.cubemap

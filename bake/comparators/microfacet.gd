@@ -6,17 +6,17 @@ const BRDFS: PackedStringArray = ["ward", "ward_bounded", "ggx"]
 const _SLOPES := 4096
 
 
-## One sentence where a method cannot draw its BRDF, otherwise empty.
-static func find_problem(method: ComparisonMethod) -> String:
-	if method.brdf in BRDFS:
+## One sentence where a method of that name cannot draw the BRDF, otherwise empty.
+static func find_problem(method: String, brdf: String) -> String:
+	if brdf in BRDFS:
 		return ""
-	return "method %s draws %s, not %s." % [method.name, ", ".join(BRDFS), method.brdf]
+	return "method %s draws %s, not %s." % [method, ", ".join(BRDFS), brdf]
 
 
 ## What a method's shader needs to be defined for its BRDF.
-static func get_defines(method: ComparisonMethod) -> PackedStringArray:
-	var defines: PackedStringArray = ["MICROFACET_" + method.brdf.to_upper()]
-	if method.alpha[0] == method.alpha[1]:
+static func get_defines(brdf: String, alpha: PackedFloat64Array) -> PackedStringArray:
+	var defines: PackedStringArray = ["MICROFACET_" + brdf.to_upper()]
+	if alpha[0] == alpha[1]:
 		defines.append("MICROFACET_ISOTROPIC")
 	return defines
 

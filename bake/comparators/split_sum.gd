@@ -19,7 +19,7 @@ var _bend := 0.0
 
 
 func prepare(stage: ComparisonStage) -> String:
-	var problem := Microfacet.find_problem(self)
+	var problem := Microfacet.find_problem(name, brdf)
 	if not problem.is_empty():
 		return problem
 	# Filament has alpha_x = a (1 + anisotropy), alpha_y = a (1 - anisotropy), sqrt(a) the roughness.
@@ -37,7 +37,10 @@ func make_sphere() -> MeshInstance3D:
 	parameters[&"lobelight_environment"] = _map.cubemap
 	parameters[&"split_sum_bend"] = _bend
 	return ComparisonSphere.make(
-		"split_sum.gdshaderinc", "split_sum_specular", Microfacet.get_defines(self), parameters
+		"split_sum.gdshaderinc",
+		"split_sum_specular",
+		Microfacet.get_defines(brdf, alpha),
+		parameters
 	)
 
 

@@ -206,6 +206,9 @@ refuses "fuzz, no time" "--minutes" fuzz
 refuses "fuzz, no time at all" "above 0" fuzz --minutes 0
 refuses "fuzz, an unknown reader" "exr hdr merl rgl measured recipe" fuzz --minutes 1 --reader png
 refuses "fuzz, a seed that is no number" "--seed is 'x'" fuzz --minutes 1 --seed x
+refuses "house, unknown option" "there is no option '--shout'" house --shout
+refuses "house, no JSON file" "--json needs a file name" house --json
+refuses "house, JSON in a missing folder" "missing/h.json" house --json missing/h.json
 refuses "fuzz, JSON in a missing folder" "missing/f.json" fuzz --minutes 1 --json missing/f.json
 refuses "an unknown command" "no-such-command" no-such-command
 

@@ -80,6 +80,7 @@ check gdlint "${#gdscript[@]}" "$bin/gdlint" "${gdscript[@]}"
 check shellcheck "${#shell[@]}" shellcheck "${shell[@]}"
 mapfile -t runtime < <(files '*.gd' | grep '^./addons/lobelight/runtime/')
 check arrows "${#runtime[@]}" "$PYTHON" tools/lint/arrows.py
+check house "$((${#cpp[@]} + ${#gdscript[@]} + ${#shell[@]}))" "$PYTHON" tools/house/house.py --quiet
 mapfile -t includes < <(files '*.gdshaderinc' | grep '^./addons/lobelight/')
 check shader_names "${#includes[@]}" "$PYTHON" tools/lint/shader_names.py
 

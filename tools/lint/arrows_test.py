@@ -1,4 +1,4 @@
-"""Tests of arrows.py on addons of a few lines."""
+"""Tests of arrows.py on repositories of a few lines."""
 
 import sys
 import tempfile
@@ -23,20 +23,23 @@ SOUND = {
 
 class Arrows(unittest.TestCase):
     def check(self, **changed):
-        """What is wrong with SOUND after `changed`: text by folder__file."""
+        """What is wrong with SOUND after `changed`: text by folder__file, of a script of the run time."""
+        return self.check_files({f"addons/lobelight/runtime/{key.replace('__', '/')}.gd": text for key, text in changed.items()})
+
+    def check_files(self, changed):
         with tempfile.TemporaryDirectory() as name:
-            addon = Path(name).resolve()
-            changed = {f"runtime/{key.replace('__', '/')}.gd": text for key, text in changed.items()}
-            for path, text in (SOUND | changed).items():
-                (addon / path).parent.mkdir(parents=True, exist_ok=True)
-                (addon / path).write_text(text, encoding="utf-8")
-            return arrows.check(addon)
+            root = Path(name).resolve()
+            sound = {f"addons/lobelight/{path}": text for path, text in SOUND.items()}
+            for path, text in (sound | changed).items():
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
+                (root / path).write_text(text, encoding="utf-8")
+            return arrows.check(root)
 
     def test_a_sound_house_passes(self):
         self.assertEqual(self.check(), [])
 
     def test_this_house_is_sound(self):
-        self.assertEqual(arrows.check(arrows.ADDON), [])
+        self.assertEqual(arrows.check(arrows.ROOT), [])
 
     def test_no_scripts_are_no_house(self):
         with tempfile.TemporaryDirectory() as name:
@@ -69,14 +72,20 @@ class Arrows(unittest.TestCase):
     def test_a_new_folder_needs_an_entry(self):
         self.assertIn("the folder attic has no entry", self.check(attic__a="extends Object\n")[0])
 
-    def test_cycles_are_found_once(self):
-        wrong = self.check(
-            light__a="class_name First\nvar c: Third\n",
-            light__b='class_name Second\nconst A := preload("a.gd")\n',
-            light__c="class_name Third\n\nvar b: Second\n",
-        )
-        way = " -> ".join(f"runtime/light/{name}.gd" for name in "acba")
-        self.assertEqual(wrong, [f"runtime/light/a.gd:2: a cycle: {way}"])
+    def test_the_addon_knows_nothing_outside_it(self):
+        command = {"bake/command.gd": "class_name ACommand\n"}
+        wrong = self.check_files(command | {"addons/lobelight/editor/plugin.gd": "class_name AnEditor\nvar a: ACommand\n"})
+        self.assertEqual(wrong, ["editor/plugin.gd:2: the addon must not know bake/command.gd"])
+
+    def test_a_constant_hides_the_class_of_its_name(self):
+        text = 'const ACommand := preload("plugin.gd")\nvar a: ACommand\n'
+        heir = 'extends "other.gd"\nvar b: ACommand\n'
+        files = {"bake/command.gd": "class_name ACommand\n", "addons/lobelight/editor/other.gd": text}
+        self.assertEqual(self.check_files(files | {"addons/lobelight/editor/heir.gd": heir}), [])
+
+    def test_the_library_has_arrows_too(self):
+        files = {"gdextension/src/fit/em.h": "", "gdextension/src/sg/lobe.cpp": '#include "fit/em.h"\n'}
+        self.assertEqual(self.check_files(files), ["gdextension/src/sg/lobe.cpp:1: sg must not know fit/em.h"])
 
     def test_a_script_may_name_itself(self):
         self.assertEqual(self.check(light__a="class_name First\nvar other: First\n"), [])

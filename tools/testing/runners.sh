@@ -315,6 +315,8 @@ run_harness() {
   judge harness
   run_logged arrows in_time "$PYTHON" "$ROOT/tools/lint/arrows_test.py"
   judge arrows
+  run_logged house in_time "$PYTHON" "$ROOT/tools/house/house_test.py"
+  judge house
   run_logged shader-names in_time "$PYTHON" "$ROOT/tools/lint/shader_names_test.py"
   judge shader-names
 }
