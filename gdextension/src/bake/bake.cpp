@@ -63,7 +63,7 @@ BakedTable bake_table(const TableRequest& request, Progress& progress,
   BakedTable baked{
       std::string(brdf->name()), recipe, std::move(table), std::move(report), {}, psnr, {}};
   baked.recipe.lobes = baked.table.lobes();
-  // What makes this table again.
+  // The recipe that makes this table again.
   baked.recipe.placement = baked.report.arc_reach > 0.0 ? Placement::arc
                            : baked.report.is_by_squares ? Placement::automatic
                                                         : Placement::em;

@@ -1,9 +1,9 @@
 #pragma once
 
-// The pipeline from a recipe to what is stored: tables and sets of them, with what is said of them.
-// Everything here throws std::invalid_argument with one sentence for what a recipe must not say,
-// what is wrong with a file (MeasuredFileError, ImageError), and Cancelled soon after `progress` is
-// cancelled. Bytes are the same for any number of threads. bake/memory.h bounds the memory.
+// From a recipe to a table or a set of tables, with errors and reports. Everything here throws
+// std::invalid_argument with one sentence for an invalid recipe, MeasuredFileError or ImageError
+// for an invalid file, and Cancelled soon after `progress` is cancelled. Bytes are the same for any
+// number of threads. bake/memory.h bounds the memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace lobelight {
 
 struct TableRequest {
   Recipe recipe;
-  // For "lobes": "auto"; the recipe's own count then stands for nothing.
+  // Set for "lobes": "auto"; the recipe's own number of lobes is then ignored.
   std::optional<LobeTarget> target;
 };
 
@@ -32,7 +32,7 @@ struct BakedTable {
   std::vector<double> errors;  // view_errors(); none of refined tables, which hold no Gaussians
   std::optional<double> predicted_psnr;  // of "lobes": "auto"
 
-  // Of measurements: MeasuredBrdf's members of these names.
+  // For measured BRDFs; see the members of MeasuredBrdf with these names.
   struct Measurements {
     std::size_t clamped = 0;
     double asymmetry = 0.0;
@@ -46,7 +46,7 @@ struct BakedSet {
   double seconds = 0.0;
 };
 
-// Quick: no file is read, and what would not fit into memory is refused (bake/memory.h).
+// Quick, as no file is read. Also refuses bakes that need too much memory (bake/memory.h).
 void validate(const TableRequest& request);
 void validate_set(const SetRecipe& recipe);
 

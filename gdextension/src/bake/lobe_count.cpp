@@ -58,8 +58,8 @@ std::vector<Scene> make_scenes(const LobeTarget& target, const Brdf& brdf,
   return scenes;
 }
 
-// The placements that are tried in turn: lobes by least squares suit what is drawn in their place,
-// not the exact light that they are judged by here, in which EM's may be the better ones.
+// The placements that are tried in turn. Lobes by least squares are fitted to the kernels that are
+// drawn, but are judged here under exact light, where EM's may be better.
 std::vector<Placement> placements_of(const Recipe& recipe, const Brdf& brdf, int lobes) {
   const LobeTable grid(brdf.alpha(), lobes, resolve_views(recipe, brdf.is_isotropic()));
   if (recipe.placement != Placement::automatic || !is_wide(brdf, grid)) return {recipe.placement};

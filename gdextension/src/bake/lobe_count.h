@@ -9,14 +9,15 @@
 
 namespace lobelight {
 
-// "lobes": "auto" of a recipe: the smallest count that reaches an error on a set of environments.
+// The target of "lobes": "auto": the fewest lobes whose pictures reach this PSNR in all
+// environments.
 struct LobeTarget {
   double psnr = 30.0;                     // dB, at most 46
   int max_lobes = kMaxLobes;              // what is tried at most
   std::vector<std::string> environments;  // panoramas' paths (UTF-8), beside the synthetic one
 };
 
-// What was tried: a count, and the lowest PSNR over the environments.
+// A number of lobes that was tried, and the lowest PSNR over the environments.
 struct LobeCountTrial {
   int lobes = 0;
   double psnr = 0.0;
@@ -43,12 +44,12 @@ struct LobeCountOptions {
 // Throws std::invalid_argument with one sentence.
 void validate(const LobeTarget& target);
 
-// Fits tables of 1, 2, 3, 4, 6, 8, 12, 16, 24 and 32 lobes, as far as max_lobes goes, until one
-// reaches the target in every environment; the recipe's own count stands for nothing. A table's
-// error is that of a sphere as ./dev compare measures it, each lobe being given the light under it
-// exactly: what the table loses, not what the run time's pyramid adds. Where lobes may be fitted by
-// least squares (fit/wide_lobes.h), EM's are tried as well. Throws std::runtime_error
-// with one sentence where max_lobes do not do, ImageError and Cancelled.
+// Fits tables of 1, 2, 3, 4, 6, 8, 12, 16, 24 and 32 lobes, up to max_lobes, until one reaches the
+// target in every environment. The recipe's own number of lobes is ignored. The error is that of a
+// sphere, measured as ./dev compare measures it, with the exact light under each lobe: it shows
+// what the table loses, not what the pyramid of the run time adds. If lobes may be fitted by least
+// squares (fit/wide_lobes.h), EM's are tried as well. Throws std::runtime_error with one sentence
+// if max_lobes are not enough, ImageError and Cancelled.
 LobeCount find_lobe_count(const LobeTarget& target, const Recipe& recipe, const Brdf& brdf,
                           Progress& progress, const LobeCountOptions& options = {});
 

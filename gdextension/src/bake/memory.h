@@ -7,13 +7,13 @@
 
 namespace lobelight {
 
-// What a bake may take at most: what needs more is refused before it begins.
+// The limit: bakes that need more memory are refused before they begin.
 constexpr std::size_t kMemoryLimit = std::size_t{8} << 30;
 
 // Texels of the largest picture that the engine's Image holds (Image::MAX_PIXELS).
 constexpr std::size_t kMaxImageTexels = std::size_t{1} << 28;
 
-// Bytes that a bake never allocates more of at a time, its result as the engine's arrays hold it
+// A bound of the bytes that a bake has allocated at any time, its result in the engine's arrays
 // included: fit_memory_bound(), the texels twice, and
 // - of measurements: 6 times their file, and what colours take;
 // - of "lobes": "auto": 76 bytes for each texel of an environment as it is looked at;

@@ -10,10 +10,10 @@ namespace lobelight {
 
 namespace {
 
-// Points a cell has along the axis, and across it.
+// Points at which the strip is evaluated: per lobe along the axis, and across it.
 constexpr int kStepsPerLobe = 10;
 constexpr int kPointsAcross = 16;
-// How far Ward's points across reach: beyond is 1e-5 of the light.
+// Ward's points lie within this distance of the axis, in t; 1e-5 of the light lies beyond.
 constexpr double kWardReachAcross = 3.1;
 
 bool is_ggx(const Brdf& brdf) { return brdf.name() == "ggx"; }
@@ -35,7 +35,7 @@ class Strip {
   double length_per_step(double a, double b) const;
   double reflected(double a, double b) const;  // ρ(i, o) i_z · area
 
-  // Of the squares of the axes, the short one's over the long one's.
+  // The square of the ratio of the strip's width to its length; 1 if the highlight is round.
   double ratio() const { return ratio_; }
 
  private:
@@ -56,8 +56,8 @@ Strip::Strip(const Brdf& brdf, const glm::dvec3& o) : brdf_(brdf), o_(o) {
   const double xy = alpha.x * alpha.y * o.x * o.y;
   const double half_difference = 0.5 * (xx - yy);
   const double root = std::hypot(half_difference, xy);
-  // Of the two forms of the eigenvector, the one that does not cancel. In the first quadrant, where
-  // tables have their views, both point into it.
+  // The eigenvector can be written in two ways; this is the one without cancellation. For views in
+  // the first quadrant, where tables have them, both point into it.
   along_ = half_difference >= 0.0 ? glm::dvec2(root + half_difference, xy)
                                   : glm::dvec2(xy, root - half_difference);
   const double length = glm::length(along_);
@@ -88,12 +88,12 @@ double Strip::reflected(double a, double b) const {
   return there.area > 0.0 ? brdf_.evaluate(there.light, o_) * there.light.z * there.area : 0.0;
 }
 
-// A piece of the strip.
+// A piece of the strip, or a cell made of pieces.
 struct Piece {
-  double weight = 0.0;  // of its light
-  double place = 0.0;   // ∫ a, then the mean
-  double aside = 0.0;   // ∫ b, then the mean
-  double length = 0.0;  // of the light
+  double weight = 0.0;  // the integral of its light
+  double place = 0.0;   // the integral of a times the light; in cells, the mean of a
+  double aside = 0.0;   // the same of b
+  double length = 0.0;  // along the axis, in radians on the sphere
 };
 
 // Pieces of equal da from −reach to reach.
@@ -120,8 +120,8 @@ std::vector<Piece> cut(const Strip& strip, bool ggx, double reach, int count) {
   return pieces;
 }
 
-// The pieces' cells: each piece goes to cells by its part of the measure that is the same for all
-// of them.
+// Joins the pieces into cells of equal measure (ArcShape::evenness). A piece across a border is
+// divided between the two cells.
 std::vector<Piece> gather(const std::vector<Piece>& pieces, double step, double evenness,
                           int count) {
   std::vector<double> measure;
@@ -166,7 +166,7 @@ ArcShape arc_shape(const Brdf& brdf, double reach) {
   ArcShape shape;
   shape.reach = reach;
   if (is_ggx(brdf)) {
-    // Lobes of one size and distance over √(1 + a²).
+    // These keep the lobes' sizes and distances in proportion to √(1 + a²).
     shape.evenness = 1.0 / 3.0;
     shape.across = 0.63;
     shape.gap = 0.343;
@@ -190,11 +190,11 @@ Mixture arc_lobes(const Brdf& brdf, const glm::dvec3& o, int lobes, const ArcSha
   std::vector<Piece> cells =
       gather(cut(strip, ggx, shape.reach, steps), 2.0 * shape.reach / steps, shape.evenness, lobes);
 
-  // In t², and shares of the light.
+  // Sums over the cells, weighted by their light; variances are in t².
   double whole = 0.0;
   double middle = 0.0;
-  double added = 0.0;  // by the lobes' widths, less what the places within cells have
-  double all = 0.0;    // the strip's along its axis
+  double added = 0.0;  // variance that the lobes' widths add, less that within the cells
+  double all = 0.0;    // variance of the strip along its axis
   std::vector<double> variance;
   variance.reserve(cells.size());
   for (const Piece& cell : cells) {
@@ -221,7 +221,8 @@ Mixture arc_lobes(const Brdf& brdf, const glm::dvec3& o, int lobes, const ArcSha
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const double place = middle + stretch * (cells[k].place - middle);
     Lobe lobe;
-    // Of the widest materials all points may lie below the horizon: lobes are in the middle then.
+    // For very wide materials all points may lie below the horizon; the lobes then lie in the
+    // middle and share the albedo equally.
     const double share = whole > 0.0 ? cells[k].weight / whole : 1.0 / lobes;
     lobe.weight = share * albedo;
     lobe.gaussian.mean = strip.reflect(place, cells[k].aside).light;

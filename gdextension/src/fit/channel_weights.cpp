@@ -9,13 +9,13 @@ namespace lobelight {
 
 namespace {
 
-// Iteration ends when no share of a channel's mass moves by more.
+// Iteration stops when no weight, as a share of its channel's albedo, changes by more than this.
 constexpr double kTolerance = 1e-6;
 
-// Lobes that have no weight start with this share: EM cannot bring back what is 0.
+// Lobes of weight 0 start with this share instead: EM never changes a weight of 0.
 constexpr double kLeastShare = 1e-9;
 
-// Keeps quotients finite where a node's share of the mass is at the end of what a double holds.
+// Keeps quotients finite where a node's share of the mass is near the smallest double.
 constexpr double kLeastSum = std::numeric_limits<double>::min();
 
 }  // namespace
@@ -43,7 +43,8 @@ std::vector<glm::dvec3> channel_weights(const std::vector<glm::dvec3>& node_weig
   double start_sum = 0.0;
   for (const double weight : start) start_sum += weight;
 
-  // Only ratios of densities at one node count: the largest becomes 1, so none underflows to 0/0.
+  // Only the ratios of the densities at a node matter. They are scaled so that the largest is 1,
+  // which avoids 0/0.
   std::vector<double> density(log_densities.size());
   for (std::size_t n = 0; n < nodes; ++n) {
     double largest = -std::numeric_limits<double>::infinity();
@@ -51,7 +52,7 @@ std::vector<glm::dvec3> channel_weights(const std::vector<glm::dvec3>& node_weig
       largest = std::max(largest, log_densities[k * nodes + n]);
     }
     for (std::size_t k = 0; k < lobes; ++k) {
-      // Where every density is 0, all lobes are equally far.
+      // If every density is 0, the lobes share the node equally.
       const double difference = log_densities[k * nodes + n] - largest;
       density[k * nodes + n] = std::isfinite(largest) ? std::exp(difference) : 1.0;
     }

@@ -13,7 +13,7 @@ namespace lobelight {
 
 namespace {
 
-// The neighbour's lobes in half-vector form, read at this view.
+// The lobes of view `from_view` with the same half-vector form at `to_view`.
 Mixture transport(const Mixture& from, const glm::dvec3& from_view, const glm::dvec3& to_view) {
   Mixture to = from;
   for (Lobe& lobe : to) {
@@ -22,7 +22,7 @@ Mixture transport(const Mixture& from, const glm::dvec3& from_view, const glm::d
   return to;
 }
 
-// A column's inner views: every other one, then those between them.
+// The inner views of a column in the order of smoothing: every second one, then the others.
 std::vector<int> smoothing_order(int elevations) {
   std::vector<int> order;
   for (const int first : {1, 2}) {
@@ -43,8 +43,8 @@ int count_fits(const Continuation& how, const glm::ivec2& views) {
   return how.refine ? fits + 1 + without_pole + inner : fits;
 }
 
-// One table on its way. At the pole all azimuths are one view; it is fitted once, and columns get
-// it by value, so that none reads what another one writes.
+// The fit of one table. At the pole all azimuths are the same view: it is fitted once and copied to
+// each column, so that no column reads what another writes.
 class Columns {
  public:
   Columns(const Continuation& how, const ColumnStarts& starts, LobeTable& table, Progress& progress,
@@ -84,8 +84,9 @@ void Columns::fit(Mixture pole) {
 }
 
 void Columns::fit_pole(Mixture start) {
-  // Normal incidence is symmetric in both planes; the planes that count are those that the table is
-  // mirrored in and, for isotropic ones, the plane of incidence.
+  // At normal incidence the slice is symmetric in both planes. Anisotropic tables are mirrored in
+  // both, so their lobes are tied in both; in isotropic ones only y = 0, the plane of incidence,
+  // matters.
   if (start.empty()) start = initial_guess(fitter_.slice(0, 0), table_.lobes());
   const glm::ivec2 views = table_.views();
   pole_mirrors_.push_back(match_images(start, 1));
@@ -138,7 +139,7 @@ void Columns::refine(int p, const std::vector<std::vector<Mirror>>& mirrors) {
     fitter_.refine(t, p, table_.mixture_at_view(t, p), mirrors[static_cast<std::size_t>(t)],
                    iterations);
   }
-  // Views part on the way, and tables would gain less between views than at them.
+  // Views refined one by one drift apart, which costs accuracy between them: smooth them again.
   for (const int t : smoothing_order(elevations)) {
     fitter_.refine(t, p, table_.smoothed_mixture_at_view(t, p),
                    mirrors[static_cast<std::size_t>(t)], iterations / 2);
@@ -149,7 +150,7 @@ void Columns::refine(int p, const std::vector<std::vector<Mirror>>& mirrors) {
 
 ColumnStarts neighbours_lobes(const LobeTable& table) {
   return [&table](int p, const std::vector<Mirror>& pole_mirrors) -> NextStart {
-    // The columns at the ends of the quadrant lie in a plane of symmetry: y = 0 and x = 0.
+    // The first and the last column lie in a plane of symmetry, y = 0 and x = 0.
     std::optional<MovingMirror> mirror;
     for (const Mirror& candidate : pole_mirrors) {
       const int column = candidate.axis == 1 ? 0 : table.views().y - 1;

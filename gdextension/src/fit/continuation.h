@@ -9,23 +9,25 @@
 
 namespace lobelight {
 
-// Fits a table so that lobe k of neighbouring views is the same lobe: first the pole, then column
-// by column outwards, every view from lobes near its own; then what wandered on the way is
-// smoothed.
+// Fits a table so that lobe k of neighbouring views is the same lobe. The pole (the view along the
+// normal) is fitted first. Then each column of views is fitted from the pole outwards, every view
+// starting from lobes close to its own. Last, the columns are smoothed, because lobes may have
+// drifted on the way.
 
-// What a view's fit starts from, and what ties its lobes.
+// The lobes that a view's fit starts from, and which of them are to stay mirror images.
 struct ViewStart {
   Mixture lobes;
   std::vector<Mirror> mirrors;
 };
 
-// Called for t = 1, 2 … of one column, with the lobes of the view before as they were fitted.
+// Called for t = 1, 2 … of a column with the fitted lobes of the view before.
 using NextStart = std::function<ViewStart(int t, const Mixture& previous)>;
 
-// The starts of column p; `pole_mirrors` tie the lobes at the pole. Called from many threads.
+// Makes the starts of column p; `pole_mirrors` are the mirror images at the pole. Called from many
+// threads.
 using ColumnStarts = std::function<NextStart(int p, const std::vector<Mirror>& pole_mirrors)>;
 
-// Every view from its neighbour's lobes, which hardly move in half-vector form.
+// Starts every view from its neighbour's lobes: in half-vector form they hardly move.
 ColumnStarts neighbours_lobes(const LobeTable& table);
 
 struct Continuation {
@@ -36,17 +38,17 @@ struct Continuation {
   FitOptions options;
 };
 
-// Fits all of `table`, its pole from `pole` or, where that is empty, from Töral's guess. The result
-// does not depend on the number of threads. `report`, which may be null, has a place for each view.
-// Throws Cancelled.
+// Fits all of `table`. The pole's fit starts from `pole` or, if that is empty, from Töral's guess
+// (fit/initial_guess.h). The result does not depend on the number of threads. `report` may be null;
+// otherwise it has an element for each view. Throws Cancelled.
 void continue_over_views(const Continuation& how, Mixture pole, const ColumnStarts& starts,
                          LobeTable& table, Progress& progress, FitReport* report);
 
-// What EmOptions::longest_step is at most while lobes are carried on from view to view: short
-// steps, so that lobes stay what they are.
+// The limit of EmOptions::longest_step in a continuation: with short steps a lobe stays the same
+// lobe from view to view.
 constexpr double kContinuationStep = 0.1;
 
-// Lobes that start below the horizon, where a slice has no mass, are put just above it.
+// Moves means that are below the horizon to just above it: a slice has no mass below.
 void lift_above_horizon(Mixture& mixture);
 
 }  // namespace lobelight

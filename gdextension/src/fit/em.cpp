@@ -13,7 +13,7 @@ namespace lobelight {
 
 namespace {
 
-// A mixture, its log-likelihood and what an EM step makes of it.
+// A mixture, its log-likelihood, and the mixture that an EM step gives.
 struct State {
   Mixture mixture;
   double log_likelihood = 0.0;
@@ -24,7 +24,7 @@ class Em {
  public:
   Em(const Slice& slice, const EmOptions& options) : nodes_(slice), options_(options) {}
 
-  // The state of `mixture`, made valid first: bounds kept, weights summing to 1, images tied.
+  // First makes `mixture` valid: within the bounds, weights summing to 1, mirror images alike.
   State at(Mixture mixture);
 
  private:
@@ -80,7 +80,7 @@ Mixture Em::maximised(const Mixture& mixture) {
     const EmMoments& s = moments_[k];
     Lobe& lobe = next[k];
     lobe.weight = s.weight;
-    // A lobe without mass, or with mass that cancels, keeps its mean.
+    // A lobe without mass, or whose nodes cancel, keeps its mean.
     const glm::dvec3 mean = mixture[k].gaussian.mean;
     const glm::dvec3 sum = s.weight * mean + s.shift;
     const double length = glm::length(sum);
@@ -129,7 +129,7 @@ EmResult run_em(const Slice& slice, Mixture start, const EmOptions& options) {
     if (options.progress) options.progress->throw_if_cancelled();
     State next =
         em.at(options.accelerate ? acceleration.propose(state.mixture, state.next) : state.next);
-    // A step beyond EM's may lead too far; EM's own never lowers the likelihood.
+    // An accelerated step may lower the likelihood; then EM's own, which never does, is taken.
     if (options.accelerate && !(next.log_likelihood >= state.log_likelihood)) {
       next = em.at(state.next);
     }

@@ -44,8 +44,8 @@ Mixture mixture_at(const Vector& v, const Mixture& before) {
   return mixture;
 }
 
-// Units in which a change of each coordinate is about one standard deviation of what a single
-// sample of the lobe tells: 1, 1/√κ, 1.
+// The unit of each coordinate: the standard deviation of its estimate from one sample of the lobe,
+// 1, 1/√κ and 1.
 Vector units_of(const Mixture& mixture) {
   Vector units;
   units.reserve(kCoordinates * mixture.size());

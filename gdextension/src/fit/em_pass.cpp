@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kLn2 = detail::kLn2;
 
-// Least exponent of 2 that is told from 0 relative to the largest: 2^−720 = 2e-217 is far below the
-// last bit of any sum here, and far enough above the subnormal numbers that nothing becomes slow.
+// Terms smaller than 2 to this power, relative to the largest, count as this small. 2^−720 = 2e-217
+// is far below the last bit of any sum here, and far above the subnormal numbers, which are slow.
 constexpr double kLeastExponent = -720.0;
 
 constexpr std::size_t kBlockSize = EmNodes::kBlockSize;

@@ -29,20 +29,20 @@ class EmNodes {
   std::vector<Block> blocks_;
 };
 
-// What a lobe's share γ of the nodes' mass amounts to, about the lobe's mean μ: nothing cancels,
-// however narrow the lobe is.
+// The moments of a lobe's share γ of the nodes' mass. They are taken about the lobe's mean μ, so
+// that nothing cancels in narrow lobes.
 struct EmMoments {
   double weight = 0.0;    // Σ γ
   glm::dvec3 shift{0.0};  // Σ γ (x − μ)
   double spread = 0.0;    // Σ γ |x − μ|²
 };
 
-// Working memory of em_pass(), to be kept from one call to the next.
+// Working memory of em_pass(); keep it from call to call.
 class EmWorkspace {
  public:
   using Column = std::array<double, EmNodes::kBlockSize>;
-  // Sums are kept in lanes that are added up at the end, in one order, so that results do not
-  // depend on how wide the processor's registers are.
+  // Sums are kept in this many lanes, whatever the width of the processor's registers, and the
+  // lanes are added in a fixed order: results are the same on all processors.
   static constexpr std::size_t kLanes = 8;
   using Lanes = std::array<double, kLanes>;
 

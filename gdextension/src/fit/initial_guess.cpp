@@ -14,12 +14,12 @@ namespace {
 // Sharpness given to a set whose directions are all the same.
 constexpr double kMaxGuessKappa = 1e8;
 
-// Differences below this share of the total variance are rounding: axes that are equally good to
-// this precision must not be chosen by it.
+// Variances that differ by less than this share of the total differ by rounding only; rounding must
+// not choose the axis.
 constexpr double kNegligible = 1e-9;
 
-// Two axes whose variances differ by less than this share of the total count as equally good: the
-// quadrature of a round slice makes neither of them a choice.
+// Two axes whose variances differ by less than this share of the total count as equal: a round
+// slice has no preferred axis, and its quadrature must not choose one.
 constexpr double kTie = 0.01;
 
 // Unit eigenvector of the largest eigenvalue of a symmetric matrix. Of equally good axes the first
@@ -60,7 +60,8 @@ Mixture initial_guess(const Slice& slice, int lobes) {
   const auto set_count = static_cast<std::size_t>(lobes);
   if (count == 0 || !(slice.albedo > 0.0)) return Mixture(set_count);
 
-  // Shares of the mass: squares of what measured data may weigh, 1e300 or 1e-300, are no numbers.
+  // Weights as shares of the mass: measured data may weigh 1e300 or 1e-300, whose squares overflow
+  // or vanish.
   std::vector<double> share(count);
   for (std::size_t n = 0; n < count; ++n) share[n] = slice.weights[n] / slice.albedo;
 
@@ -100,7 +101,7 @@ Mixture initial_guess(const Slice& slice, int lobes) {
     if (length > 0.0) {
       mixture[k].gaussian.mean = sums[k].direction / length;
     } else {
-      // More sets than directions (or directions that cancel): the direction where it would be.
+      // The set is empty, or its directions cancel: take the direction at its place in the order.
       const std::size_t place = (2 * k + 1) * count / (2 * set_count);
       mixture[k].gaussian.mean = slice.directions[order[place]];
     }

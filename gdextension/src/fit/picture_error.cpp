@@ -47,7 +47,7 @@ glm::dmat3 rotation(double u, double v, double w) {
           {2.0 * (x * z + y * c), 2.0 * (y * z - x * c), 1.0 - 2.0 * (x * x + y * y)}};
 }
 
-// A light as a spherical Gaussian of radiance.
+// A lamp or a window: a spherical Gaussian of radiance.
 struct Lamp {
   glm::dvec3 direction;
   double variance;
@@ -59,8 +59,8 @@ constexpr int kMostLamps = 62;
 
 std::vector<Lamp> made_up_light(std::size_t light) {
   std::vector<Lamp> lamps;
-  // `count` of them, from the least deviation and radiance to so many times as much, evenly in the
-  // logarithms. Radiances are beside an ambient light of about 1.
+  // Adds `count` Gaussians. Deviations and radiances begin at the least ones and go up to so many
+  // times as much, evenly in the logarithm. The ambient light has a radiance of about 1.
   const auto add = [&](int count, double deviation, double wider, double radiance,
                        double brighter) {
     for (int i = 0; i < count; ++i) {
@@ -81,7 +81,7 @@ std::vector<Lamp> made_up_light(std::size_t light) {
 }
 
 constexpr double kAmbient = 0.5;
-// Where a lamp's density has fallen by e to this power, it counts for nothing.
+// A lamp is ignored where its density is below e to the power of minus this, relative to its peak.
 constexpr double kDark = 18.0;
 
 // ∫ L g of a planar Gaussian g of this variance; 0 for the light itself.
@@ -102,8 +102,8 @@ double light_under(const std::vector<Lamp>& lamps, const glm::dvec3& direction, 
 class LightMap {
  public:
   static constexpr int kSide = 512;
-  // Texels for which lamps are looked up together, and more than the chord from their middle to
-  // each of them.
+  // Texels in a block for which the lamps are chosen together; a bound of the chord from the
+  // block's middle to any of its texels.
   static constexpr int kSegment = 16;
   static constexpr double kSegmentReach = 0.1;
 

@@ -17,17 +17,17 @@ struct PictureErrors {
   double windows = 0.0;
 };
 
-// How wrong a picture of a material is when it is drawn with a table: what likelihood (fit/em.h)
-// only stands in for. It compares two placements of lobes for one material; as a number it means
-// little.
+// The error of a picture that is drawn with a table. It decides between two placements of the lobes
+// for one material, for which the likelihood (fit/em.h) is only a substitute. Errors of different
+// materials cannot be compared.
 //
-// The lights are made up and no real place's: a night of small lamps whose brightness spreads over
-// four powers of ten, and a room of windows and lamps that spread over two. Each is a sum of
-// spherical Gaussians, so that what a lobe sees of it is one as well, in the two levels that are
-// drawn in its place (fit/pyramid_kernel.h). What the material really reflects is the sum over
-// other nodes than mixtures are fitted to, at views between those of the table, each turned against
-// the lights in several ways. Both are shown as ./dev compare shows them: exposed so that the
-// median is 0.18, clamped, to the power of 1/2.2.
+// There are two invented lights: small lamps at night, with brightnesses over four powers of ten,
+// and windows and lamps in a room, over two. A light is a sum of spherical Gaussians, so what a
+// lobe sees of it has a closed form, in the two levels in which the lobe is drawn
+// (fit/pyramid_kernel.h). The truth is a sum over nodes of the slice, others than those that
+// mixtures are fitted to, at views between those of the table, each turned against the lights in
+// several ways. Pictures are shown as ./dev compare shows them: the median at 0.18, clamped, to the
+// power of 1/2.2.
 class PictureError {
  public:
   // For tables with `views`. Throws Cancelled. `threads` as for parallel_for(); the result does not

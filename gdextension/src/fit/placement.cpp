@@ -16,9 +16,10 @@ namespace lobelight {
 
 namespace {
 
-// Of the two widths, and of lobes. Arcs of rounder highlights are as good as EM's lobes under small
-// lamps, and the made-up lights are of that kind; under skies and in rooms they are worse by 1 to 4
-// dB at ratios of 5 to 15, and fewer lobes leave gaps along the highlight that cost as much.
+// The least ratio of the two widths and the least number of lobes for arcs. Below the ratio, arcs
+// are as good as EM under small lamps, which the invented lights have, but 1 to 4 dB worse under
+// skies and in rooms (ratios of 5 to 15). Fewer lobes leave gaps along the highlight that cost as
+// much.
 constexpr double kLeastArcRatio = 18.0;
 constexpr int kFewestArcLobes = 8;
 constexpr double kMostArcRatioPerLobe = 5.0;
@@ -89,7 +90,7 @@ ArcTable fit_arcs(const Brdf& brdf, const LobeTable& model, double reach, const 
     const PictureErrors own = error(table);
     progress.set(static_cast<double>(++tried) / static_cast<double>(reaches.size()));
     if (!best && !others) yardstick = own;
-    // Under the light that it is the worse for.
+    // The error under the light where it is larger.
     const double worse = std::max(own.lamps / yardstick.lamps, own.windows / yardstick.windows);
     if (best && !(worse < least)) continue;
     least = worse;

@@ -12,8 +12,8 @@ namespace lobelight {
 
 // Where a table's lobes are.
 enum class Placement {
-  automatic,  // as the smaller error says (fit/picture_error.h, fit/wide_lobes.h)
-  em,         // where the likelihood wants them (fit/em.h)
+  automatic,  // whichever has the smaller error (fit/picture_error.h, fit/wide_lobes.h)
+  em,         // by maximum likelihood (fit/em.h)
   arc,        // along the highlight (fit/arc.h)
 };
 
@@ -25,8 +25,7 @@ Placement placement_from_string(std::string_view name);
 constexpr double kLeastReach = 0.5;
 constexpr double kGreatestReach = 32.0;
 
-// Whether `automatic` looks at arcs at all: rounder highlights and few lobes are always the better
-// served by EM.
+// Whether `automatic` tries arcs. For rounder highlights and for few lobes EM is always better.
 bool arcs_may_win(std::string_view brdf, const glm::dvec2& alpha, int lobes);
 
 struct ArcTable {
@@ -35,10 +34,10 @@ struct ArcTable {
   PictureErrors errors;
 };
 
-// The best table of arcs for `brdf`, of as many lobes and views as `model`, and with the weights of
-// its views: the error chooses the reach, unless `reach` is above 0: beside that of `others`, which
-// may be null, under the light where the arcs fare worse. All views have one shape, so
-// that neighbouring ones can be interpolated.
+// The best table of arcs for `brdf`, with the lobes, views and albedos of `model`. If `reach` is 0,
+// the reach with the smallest error is taken: the larger of the two lights' errors, each relative
+// to that of `others` unless that is null. All views have the same shape, so that they can be
+// interpolated.
 ArcTable fit_arcs(const Brdf& brdf, const LobeTable& model, double reach, const PictureError& error,
                   const PictureErrors* others, int threads, Progress& progress);
 

@@ -25,7 +25,7 @@ double variance_of(const SphericalGaussian& gaussian) {
   return 1.0 / std::max(gaussian.kappa, 1.0 / kWidest);
 }
 
-// What the pass over the nodes needs and collects for a lobe.
+// Per lobe: what the pass over the nodes needs, and the sums that it collects.
 struct Drawn {
   DrawnLobe lobe;
   glm::dvec3 mean;
@@ -79,7 +79,7 @@ void RefinementObjective::make_symmetric(std::vector<double>& x) const {
         const double sign = i == static_cast<std::size_t>(mirror.axis) ? -1.0 : 1.0;
         const double mean = 0.5 * (x[5 * k + i] + sign * x[5 * other + i]);
         x[5 * k + i] = mean;
-        // Of a lobe that is its own image, what turns is 0 by now.
+        // A lobe that is its own image has no component across the plane by now.
         x[5 * other + i] = sign * mean;
       }
     }

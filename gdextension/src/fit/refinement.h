@@ -9,15 +9,15 @@
 
 namespace lobelight {
 
-// EM fits Gaussians, but a pyramid's levels are drawn (fit/pyramid_kernel.h). Refinement goes on
-// from EM's lobes with the objective of fit/em.h, the log-likelihood
+// EM fits Gaussians, but what is drawn are levels of a pyramid (fit/pyramid_kernel.h). Refinement
+// starts from EM's lobes and maximises the log-likelihood of fit/em.h
 //
 //   L = Σ_n w_n / W · ln Σ_k π_k q(x_n; μ_k, 1/κ_k),
 //
-// for the densities q that are drawn. Likelihood is the right measure of what is seen: where the
-// mixture is p + e instead of p, it falls by ∫ e²/2p, which weighs errors nearly as squares of
-// gamma-encoded pixels do. L-BFGS moves means, logarithms of the variances and of the weights; a
-// few iterations, so that the lobes of neighbouring views stay each other's neighbours.
+// for the densities q that are drawn. Likelihood suits what is seen: if the mixture is p + e
+// instead of p, L falls by ∫ e²/2p, which weighs errors much as squared differences of
+// gamma-encoded pixels do. L-BFGS moves the means and the logarithms of variances and weights, for
+// a few iterations only, so that the lobes of neighbouring views stay close.
 struct RefinementOptions {
   int max_iterations = 20;
   // Stops when an iteration raises the log-likelihood (nats) by less than this.
@@ -25,8 +25,8 @@ struct RefinementOptions {
   // Bounds as in EmOptions.
   double weight_floor = 1e-12;
   double kappa_max = 1e8;
-  // Lobes that are each other's images, as in EmOptions: the start is made symmetric, and the
-  // gradient's symmetric part is followed.
+  // Mirror images, as in EmOptions: the start is made symmetric, and steps follow the symmetric
+  // part of the gradient.
   std::vector<Mirror> mirrors;
   // Asked between iterations whether to stop; may be null.
   const Progress* progress = nullptr;
@@ -38,9 +38,10 @@ struct RefinementResult {
   int iterations = 0;
 };
 
-// The likelihood of a mixture near `start` as a function of 5 numbers a lobe: the shift of its mean
-// before that is made a unit vector again (three, in standard deviations of the start), and the
-// change of the logarithms of variance and weight. 0 is the start, made valid and symmetric.
+// The likelihood of a mixture near `start` as a function of 5 numbers for each lobe: the shift of
+// its mean (3 numbers, in standard deviations of the start; the shifted mean is made a unit vector
+// again), and the changes of the logarithms of variance and weight. All 0 is the start, made valid
+// and symmetric.
 class RefinementObjective {
  public:
   // The slice has mass and is_usable(), and outlives this object, as do the options.
@@ -67,8 +68,8 @@ class RefinementObjective {
 // Cancelled.
 RefinementResult refine(const Slice& slice, Mixture start, const RefinementOptions& options = {});
 
-// The logarithm of each lobe's density as it is drawn at the slice's nodes, lobe by lobe: what
-// channel_weights() takes.
+// The logarithms of the lobes' densities, as they are drawn, at the slice's nodes, lobe by lobe:
+// the argument of channel_weights().
 std::vector<double> drawn_log_densities(const Slice& slice, const Mixture& mixture);
 
 }  // namespace lobelight

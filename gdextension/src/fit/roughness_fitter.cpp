@@ -18,14 +18,15 @@ namespace lobelight {
 
 namespace {
 
-// The recipe of the one table from which all others of its kind descend.
+// The recipe of the first table of its kind, isotropic or anisotropic, from which all others are
+// continued.
 Recipe table_recipe(const SetRecipe& set, const glm::dvec2& alpha, const glm::ivec2& views) {
   Recipe recipe;
   recipe.brdf = set.brdf;
   recipe.alpha = alpha;
   recipe.lobes = set.lobes;
   recipe.views = views;
-  // Lobe k of all widths is one lobe, and round highlights have no arc.
+  // Lobe k must be the same lobe at all widths, and round highlights have no arc.
   recipe.placement = Placement::em;
   recipe.seed = set.seed;
   recipe.threads = set.threads;
@@ -71,7 +72,7 @@ class Blend {
   std::vector<LobeTable::Entry> entries_;
 };
 
-// One set on its way.
+// The fit of one set.
 class SetFit {
  public:
   SetFit(const SetRecipe& recipe, std::vector<std::uint16_t> texels, Progress& progress)
@@ -84,19 +85,20 @@ class SetFit {
   std::vector<std::uint16_t> fit(int table, Progress& progress);
 
  private:
-  // Steps from the table that is fitted by itself: in the middle of the widths for isotropic ones;
-  // for the others of ratio 5 or so, where the lobes lie in a row and rows of any view and ratio
-  // can be reached.
+  // The levels of the table that is fitted first, the root. Isotropic: the middle width.
+  // Anisotropic: a ratio of about 5, where the lobes lie in a row; from there the rows of all views
+  // and ratios can be reached.
   glm::ivec2 root(bool isotropic) const {
     const int last = layout_.levels() - 1;
     return isotropic ? glm::ivec2(last / 2) : glm::ivec2(3 * last / 4, 7 * last / 16);
   }
+  // Steps between neighbouring widths from the root to a table.
   int distance(int table) const {
     const bool isotropic = layout_.is_isotropic(table);
     const glm::ivec2 way = layout_.level(table) - root(isotropic);
     return isotropic ? std::abs(way.x) : std::abs(way.x) + std::abs(way.y);
   }
-  // The neighbours that are a step nearer to the root.
+  // The neighbouring tables that are one step closer to the root.
   std::vector<int> parents(int table) const;
 
   glm::dvec2 alpha(int table) const {
@@ -146,7 +148,7 @@ std::vector<std::uint16_t> SetFit::fit(int table, Progress& progress) {
   const auto brdf = make_brdf(recipe_.brdf, alpha(table));
   Blend blend(alpha(table), views, recipe_.lobes);
   for (const int parent : from) {
-    // A lobe's sharpness goes with 1 / (alpha_x alpha_y).
+    // A lobe's sharpness is roughly proportional to 1 / (alpha_x alpha_y).
     const glm::dvec2 ratio = alpha(parent) / alpha(table);
     blend.add(stored(parent), 1.0 / static_cast<double>(from.size()), std::log2(ratio.x * ratio.y));
   }
@@ -170,7 +172,7 @@ std::vector<std::uint16_t> SetFit::fit(int table, Progress& progress) {
   LobeTable result(alpha(table), recipe_.lobes, views);
   Mixture pole = start.mixture_at_view(0, 0);
   lift_above_horizon(pole);
-  // Tables are fitted side by side.
+  // One thread: run() fits the tables of a front in parallel.
   const Continuation how{*brdf, recipe_.seed, 1, false, {}};
   continue_over_views(how, std::move(pole), starts, result, progress, nullptr);
   return result.to_rgba16f();
@@ -178,7 +180,7 @@ std::vector<std::uint16_t> SetFit::fit(int table, Progress& progress) {
 
 std::vector<std::uint16_t> SetFit::run() {
   progress_.set(0.0);
-  // Tables at the same distance from their roots do not depend on one another.
+  // A front has the tables at one distance from their roots, which do not depend on one another.
   std::vector<std::vector<int>> fronts;
   for (int table = 0; table < layout_.tables(); ++table) {
     const auto d = static_cast<std::size_t>(distance(table));
@@ -187,7 +189,7 @@ std::vector<std::uint16_t> SetFit::run() {
   }
   for (const std::vector<int>& front : fronts) {
     parallel_for(front.size(), recipe_.threads, progress_, [&](std::size_t n) {
-      // Views are what takes the time.
+      // The time is proportional to the number of views.
       Progress progress(progress_, static_cast<double>(layout_.size(front[n])) /
                                        static_cast<double>(layout_.total()));
       const std::vector<std::uint16_t> own = fit(front[n], progress);

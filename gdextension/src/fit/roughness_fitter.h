@@ -11,11 +11,12 @@
 namespace lobelight {
 
 // Tables of one BRDF over its widths (alpha_x, alpha_y), fitted so that lobe k of neighbouring
-// widths is the same lobe: tables can be interpolated in the logarithms of the widths.
+// widths is the same lobe. So tables can be interpolated in the logarithms of the widths.
 //
-// A table's lobes start from those of the neighbouring widths, view by view. Continuation over the
-// views alone does not do: at equal widths the lobes at normal incidence lie nearly on top of one
-// another, and where they part on the way to grazing views differs from width to width.
+// Each view of a table starts from the lobes of the same view at the neighbouring widths. A
+// continuation over the views alone is not enough: at equal widths the lobes at normal incidence
+// lie nearly on top of one another, and where they separate on the way to grazing views differs
+// from width to width.
 struct SetRecipe {
   std::string brdf = "ward";  // a model's name
   // The widths on each axis, rising; at least two. Steps of a factor √2 or less interpolate well.
@@ -30,11 +31,10 @@ struct SetRecipe {
 
 constexpr int kMaxWidths = 64;
 
-// Where a set's tables are. Tables come in the order in which they are stored: the anisotropic ones
-// of all pairs x ≥ y, pair (x, y) at x (x + 1) / 2 + y, then the isotropic ones of all widths.
-// Pairs x < y are those of (y, x), seen from the other axis. Equal widths have a table of each
-// kind: the anisotropic one, whose lobes lie in the tangent frame, is for interpolation with its
-// neighbours.
+// The order in which a set's tables are stored: first the anisotropic tables of all pairs x ≥ y,
+// pair (x, y) at x (x + 1) / 2 + y, then the isotropic tables of all widths. A pair x < y is the
+// table of (y, x) with the axes exchanged. Equal widths have a table of each kind: the anisotropic
+// one is there to be interpolated with its neighbours.
 class SetLayout {
  public:
   explicit SetLayout(const SetRecipe& recipe);
@@ -67,13 +67,14 @@ class SetLayout {
 // Throws std::invalid_argument with one sentence that names the key and the value.
 void validate(const SetRecipe& recipe);
 
-// The texels of all tables, each refined from its parents' rounded ones. The bytes are the same for
-// any number of threads. Throws what validate() does, and Cancelled.
+// Fits all tables and returns their texels. Each table starts from the rounded texels of its
+// parents, the neighbouring widths that are fitted before it. The bytes are the same for any number
+// of threads. Throws what validate() throws, and Cancelled.
 std::vector<std::uint16_t> fit_table_set(const SetRecipe& recipe, Progress& progress);
 
-// Fits one table again from the texels of its parents in a finished set: gives the bytes that the
-// set has for it, so that a part of a set can be checked. Throws std::invalid_argument also where
-// the texels are not those of such a set or there is no such table.
+// Fits one table of a finished set again, from its parents' texels in the set, and returns the
+// bytes that the set has for it: so a part of a set can be checked. Throws std::invalid_argument
+// also if the texels have another size or there is no such table.
 std::vector<std::uint16_t> refit_table(const SetRecipe& recipe,
                                        const std::vector<std::uint16_t>& texels, int table,
                                        Progress& progress);

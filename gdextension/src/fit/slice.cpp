@@ -18,9 +18,9 @@ double seed_rotation(std::uint64_t seed) {
 }
 
 Slice sample_slice(const Brdf& brdf, const glm::dvec3& o, int nodes_per_axis, double rotation) {
-  // A Kronecker lattice: u.x in equal steps, u.y turned by the golden ratio from node to node. It
-  // fills one quadrant of u.y and is reflected into the other three, because the samplers map
-  // u.y → 1 − u.y and u.y → 1/2 − u.y to reflections of the slice.
+  // A Kronecker lattice: u.x in equal steps, u.y advancing by the golden ratio from node to node.
+  // It fills one quarter of u.y and is reflected into the other three: the samplers map u.y → 1 −
+  // u.y and u.y → 1/2 − u.y to mirror images of the slice.
   const int quarter = (nodes_per_axis + 3) / 4;
   const int count = 4 * quarter * quarter;
   const double node_weight = 0.25 / count;

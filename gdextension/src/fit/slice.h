@@ -16,19 +16,19 @@ struct Slice {
   double albedo = 0.0;                 // sum of the weights: the directional albedo of the view
 };
 
-// nodes_per_axis² nodes (rounded up to a multiple of four per axis) drawn through the BRDF's own
-// sampler from points that are the same on every call; fewer come back where some fall below the
-// horizon. The nodes are their own mirror image wherever the slice is: in y = 0 when o_y = 0, in
-// x = 0 when o_x = 0. `rotation` ∈ [0, 1) turns the points among themselves and keeps that.
+// Samples the slice at nodes_per_axis² nodes (rounded up to a multiple of four per axis), which the
+// BRDF's own sampler makes of points that are the same on every call. Nodes below the horizon are
+// left out. Where the slice is its own mirror image, so are the nodes: in y = 0 if o_y = 0, in x =
+// 0 if o_x = 0. `rotation` ∈ [0, 1) gives other points with the same symmetry.
 Slice sample_slice(const Brdf& brdf, const glm::dvec3& o, int nodes_per_axis = 64,
                    double rotation = 0.0);
 
 // The rotation that a recipe's seed stands for.
 double seed_rotation(std::uint64_t seed);
 
-// Whether a node can take part in a fit: its weight is finite and above 0, its direction finite and
-// of unit length within 1e-6. Measured data may hold anything; sample_slice(), initial_guess() and
-// run_em() all leave out the nodes that this refuses.
+// Whether a node can be used in a fit: its weight is finite and above 0, its direction finite and
+// of unit length within 1e-6. Measured data may contain anything; sample_slice(), initial_guess()
+// and run_em() leave out the other nodes.
 bool is_usable(const glm::dvec3& direction, double weight);
 
 // Whether every node is usable and the albedo finite.

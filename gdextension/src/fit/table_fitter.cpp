@@ -22,8 +22,8 @@ namespace {
   throw std::invalid_argument(sentence.str());
 }
 
-// Measurements may be in any unit. A table would hold weights that are far off 1 as the last number
-// that it has, or as 0.
+// Measurements may be in any unit. Weights far from 1 would be stored as the largest half float, or
+// as 0; such tables are refused.
 void refuse_unstorable(const LobeTable& table, const Brdf& brdf) {
   double greatest = 0.0;
   int too_bright = 0;
@@ -64,18 +64,18 @@ void fit_independently(const Brdf& brdf, const Recipe& recipe, const FitOptions&
   });
 }
 
-// Of the progress of a fit that also looks at arcs, or at lobes by least squares; and of the
-// former, what the light costs that arcs are judged by.
+// Shares of the progress: of arcs and of least squares in a fit that also tries them, and of the
+// invented lights in that of arcs.
 constexpr double kArcShare = 0.25;
 constexpr double kSquaresShare = 0.5;
 constexpr double kLightShare = 0.5;
-// Arcs take the place of EM's lobes where they are clearly better under both lights: what errors
-// say of other lights is no more exact.
+// Arcs replace EM's lobes only if they are better by a tenth under both lights: smaller differences
+// need not hold under other lights.
 bool is_clearly_better(const PictureErrors& arcs, const PictureErrors& em) {
   return arcs.lamps < 0.9 * em.lamps && arcs.windows < 0.9 * em.windows;
 }
 
-// A table with the albedos of the views as weights, for arcs alone.
+// A table whose weights are the views' albedos and nothing else, for recipes that ask for arcs.
 LobeTable albedos(const Brdf& brdf, const Recipe& recipe, const FitOptions& options,
                   const LobeTable& grid, const Progress& progress) {
   LobeTable table = grid;
@@ -93,7 +93,7 @@ LobeTable albedos(const Brdf& brdf, const Recipe& recipe, const FitOptions& opti
   return table;
 }
 
-// The likelihoods of lobes that no iteration made.
+// Fills the report for arcs: they take no iterations, but have a likelihood.
 void report_arcs(const Brdf& brdf, const Recipe& recipe, const FitOptions& options,
                  const ArcTable& arcs, const Progress& progress, FitReport& report) {
   const int elevations = arcs.table.views().x;
@@ -148,7 +148,7 @@ glm::ivec2 resolve_views(const Recipe& recipe) {
 
 namespace {
 
-// What does not depend on the BRDF.
+// Checks what does not depend on the BRDF.
 void validate_counts(const Recipe& recipe) {
   std::ostringstream sentence;
   if (recipe.lobes < 1 || recipe.lobes > kMaxLobes) {
@@ -181,7 +181,7 @@ void validate_counts(const Recipe& recipe) {
   }
 }
 
-// What does.
+// Checks what depends on the BRDF.
 void validate_material(const Recipe& recipe, const glm::dvec2& alpha, bool isotropic) {
   const glm::ivec2 views = resolve_views(recipe, isotropic);
   std::ostringstream sentence;

@@ -32,9 +32,9 @@ struct Recipe {
   // Whether the lobes are fitted to what is drawn in their place after they have been fitted as
   // Gaussians (fit/refinement.h).
   bool refine = false;
-  // Where the lobes are, and how far they reach along the highlight where they are strung along it,
-  // in slopes over alpha; 0: as the error of a picture says (fit/placement.h). Independent fits are
-  // EM's.
+  // How lobes are placed (fit/placement.h), and, for arcs, how far they reach along the highlight,
+  // in slopes over alpha. A reach of 0 is chosen by the error of a picture. Independent fits are
+  // always EM's.
   Placement placement = Placement::automatic;
   double reach = 0.0;
   std::uint64_t seed = 0;
@@ -56,14 +56,14 @@ glm::ivec2 resolve_views(const Recipe& recipe);
 // Whether a fit of the recipe also looks at lobes along the highlight.
 bool looks_at_arcs(const Recipe& recipe, std::string_view brdf, const glm::dvec2& alpha);
 
-// Fits the recipe's table. The lobes of a coloured BRDF are fitted to the mean of its channels and
-// get weights for each of them (fit/channel_weights.h). The bytes are the same for any number of
-// threads. Throws what validate() and make_brdf() do, std::invalid_argument where a file's numbers
-// make weights that a table cannot hold, and Cancelled. `report` may be null.
+// Fits the recipe's table. Lobes of a coloured BRDF are fitted to the mean of its channels and get
+// weights for each channel (fit/channel_weights.h). The bytes are the same for any number of
+// threads. Throws what validate() and make_brdf() throw, std::invalid_argument if a file's numbers
+// give weights that a table cannot hold, and Cancelled. `report` may be null.
 LobeTable fit_table(const Recipe& recipe, Progress& progress, FitReport* report,
                     const FitOptions& options = {});
 
-// The same for a BRDF at hand; the recipe's `brdf` and `alpha` count for nothing.
+// The same for a given BRDF; the recipe's `brdf` and `alpha` are ignored.
 LobeTable fit_table(const Brdf& brdf, const Recipe& recipe, Progress& progress, FitReport* report,
                     const FitOptions& options = {});
 

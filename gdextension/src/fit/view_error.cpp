@@ -25,7 +25,7 @@ double l1_error(const Brdf& brdf, const glm::dvec3& o, const Mixture& mixture) {
   for (std::size_t n = 0; n < slice.weights.size(); ++n) {
     const glm::dvec3& i = slice.directions[n];
     const double value = brdf.evaluate(i, o) * i.z;
-    // Far off the lobe of an extreme material the value underflows.
+    // Far from the lobe of an extreme material the value underflows to 0.
     if (!(value > 0.0)) continue;
     const double missing = 1.0 - scale * evaluate(mixture, i) / value;
     // Written so that NaN counts.

@@ -20,23 +20,24 @@ constexpr std::size_t kFunctions = (kDegrees + 1) * (kDegrees + 2) / 2;
 using Coefficients = std::vector<double>;
 using Parameters = std::vector<double>;  // angles from the normal, then logarithms of variances
 
-// More lobes than these take away from one another what they have.
+// The most lobes that are fitted: further ones would only cancel one another.
 constexpr std::size_t kMostLobes = 6;
-// Weights cost this times their square, so that they stay small; changes from the neighbouring
-// view's angles and logarithms this.
+// Penalties: for the squares of weights, which keeps them small, and for changes from the
+// neighbouring view's angles and logarithms.
 constexpr double kWeightCost = 1e-4;
 constexpr double kChangeCost = 1e-4;
-// Of variances: the narrowest is what the degrees can show, the widest level but one.
+// Bounds of the variances: the least is what the degrees can show, the largest is the second widest
+// level.
 constexpr double kLeastVariance = 0.01;
 constexpr double kGreatestVariance = 1.0;
-// Of angles: half-vectors need the mean on one side of the view and above the horizon.
+// Bounds of the angles: half-vectors need the mean on one side of the view and above the horizon.
 constexpr double kGreatestTurn = 176.0 * kPi / 180.0;
 constexpr double kGreatestSum = 150.0 * kPi / 180.0;
 constexpr int kFirstSteps = 60;
 constexpr int kSteps = 30;
 constexpr int kStarts = 4;
 
-// What the coefficients of degree l count.
+// The factor of the coefficients of degree l.
 double degree_weight(int degree) { return 1.0 / (degree + 0.5); }
 
 // The real spherical harmonics that are even in y, times degree_weight(), at a unit vector.
@@ -119,7 +120,8 @@ void solve(std::vector<double> a, std::vector<double>& b) {
   }
 }
 
-// The lobes of one view as a function of where and how wide they are; their weights follow.
+// The lobes of one view as a function of their angles and variances; the weights follow by linear
+// least squares.
 class WideView {
  public:
   WideView(Coefficients wanted, double elevation, Parameters before)
@@ -136,7 +138,7 @@ class WideView {
     }
   }
 
-  // What is left of the slice, then of the costs; the weights.
+  // The residuals: of the slice, then the penalties. Also gives the weights.
   std::vector<double> residuals(const Parameters& x, std::vector<double>& weights) const {
     const std::size_t lobes = x.size() / 2;
     std::vector<Coefficients> columns;
@@ -247,7 +249,8 @@ WideSlice wide_slice(const Brdf& brdf, const SliceNodes& nodes, const glm::dvec3
   return result;
 }
 
-// The lobes that a table of so many takes: those without weight lie on the last one.
+// Fills up to the number of lobes that the table has: the added lobes have weight 0 and lie on the
+// last one.
 Mixture stored_lobes(const Parameters& x, const std::vector<double>& weights, double albedo,
                      int count) {
   const std::size_t lobes = weights.size();
@@ -291,7 +294,7 @@ bool fit_wide_lobes(const Brdf& brdf, const SliceNodes& nodes, LobeTable& table,
   const int views = table.views().x;
   const int steps = kStarts + views;
   int done = 0;
-  // The two errors at the end take little beside them.
+  // The two errors at the end take little time.
   const auto step = [&] { progress.set(static_cast<double>(++done) / (steps + 1)); };
   std::vector<WideSlice> slices;
   for (int t = 0; t < views; ++t) {

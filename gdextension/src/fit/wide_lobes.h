@@ -8,15 +8,16 @@ namespace lobelight {
 
 // Lobes of wide isotropic highlights, by least squares.
 //
-// The horizon and the cosine cut a wide slice off more sharply than a Gaussian ends. Sums of
-// Gaussians with positive weights cannot follow, and EM lays all of its lobes on top of one
-// another. Where a lobe at or below the horizon may take a little away, six follow closely.
+// The horizon and the cosine make a wide slice end more abruptly than a Gaussian does. Gaussians
+// with positive weights cannot follow that; EM puts all of them at the same place. If a lobe at or
+// below the horizon may have a small negative weight, six lobes follow the slice closely.
 //
-// What counts is the picture: light varies the less the finer it is looked at, so that a slice's
-// error is the sum of the squares of its spherical harmonics' coefficients, those of degree l over
-// (l + 1/2)². Lobes have the coefficients of what is drawn in their place (fit/pyramid_kernel.h).
+// The error is the one that a picture shows. Light has less energy in finer detail, so the error is
+// the sum of the squared differences of the spherical harmonics' coefficients, those of degree l
+// divided by (l + 1/2)². Lobes have the coefficients of the kernels that are drawn in their place
+// (fit/pyramid_kernel.h).
 
-// The narrowest width that is wide; what the degrees that are looked at can show.
+// The least width that counts as wide: narrower slices need higher degrees than are looked at.
 inline constexpr double kLeastWideWidth = 0.25;
 
 // Whether lobes may be fitted so: the material is isotropic, of one colour and wide.
@@ -28,8 +29,9 @@ struct SliceNodes {
   double rotation;
 };
 
-// Fits the lobes of all views again, each view from its neighbour's, and keeps them where the error
-// between the views is smaller as well; returns whether it is. is_wide() holds. Throws Cancelled.
+// Fits the lobes of all views again, each view from its neighbour's. Keeps them if the error is
+// smaller between the views, too, and returns whether it is. The table must satisfy is_wide().
+// Throws Cancelled.
 bool fit_wide_lobes(const Brdf& brdf, const SliceNodes& nodes, LobeTable& table,
                     Progress& progress);
 

@@ -6,10 +6,9 @@
 
 namespace lobelight {
 
-// A lobe of a view o by the half-vector between its mean and o: in these coordinates it hardly
-// changes with the view. Mirroring at h stretches solid angles by 4 (o·h), variances across the
-// plane of incidence and along it together, so κ (o·h) is the part of κ that does not depend on the
-// view (a quarter of the half-vector's own sharpness).
+// A lobe of a view o, described by the half-vector h between its mean and o. In this form a lobe
+// hardly changes with the view. Reflection at h stretches solid angles by 4 (o·h), so κ (o·h), a
+// quarter of the half-vector's own sharpness, does not depend on the view.
 struct HalfVectorLobe {
   glm::dvec2 slope{0.0};   // (h_x, h_y) / h_z
   double sharpness = 0.0;  // κ (o·h)

@@ -19,7 +19,7 @@ constexpr double kHalfPi = 0.5 * kPi;
 constexpr double kLeastCosine = 0.0104717841162458;
 
 double clamp_log2_kappa(double log2_kappa) {
-  // A sharpness of 0 has the logarithm −∞, which the bound takes.
+  // A sharpness of 0 has the logarithm −∞, which becomes the bound.
   return std::clamp(log2_kappa, LobeTable::kMinLog2Kappa, LobeTable::kMaxLog2Kappa);
 }
 
@@ -29,7 +29,7 @@ Lobe decode(const LobeTable::Entry& entry, const glm::dvec2& alpha, const glm::d
 }
 
 glm::dvec3 decode_channels(const LobeTable::Entry& first, const LobeTable::Entry& second) {
-  // Rounding may leave a little less than nothing for green.
+  // Rounding may make green slightly negative.
   return first.w * glm::dvec3(second.z, std::max(0.0, 3.0 - second.z - second.w), second.w);
 }
 

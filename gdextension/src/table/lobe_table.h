@@ -9,8 +9,9 @@
 
 namespace lobelight {
 
-// The lobes of a BRDF over the view direction, stored by half-vector: in these coordinates lobes
-// hardly move with the view, so neighbouring views can be interpolated.
+// The lobes of a BRDF over the view direction. They are stored by half-vector
+// (table/half_vector.h): in that form they hardly move with the view, so neighbouring views can be
+// interpolated.
 //
 // Views: elevation from the normal
 //   θ_t = (1 − (1 − τ)²) · kMaxElevation,  τ = t / (T − 1),  t = 0 … T − 1,
@@ -32,9 +33,9 @@ class LobeTable {
   // What a texel holds: the half-vector's slopes divided by alpha, log2(κ (o·h)) and the weight.
   using Entry = glm::dvec4;
 
-  // What the second texel of a lobe holds, in tables that have one: (0, 0, tint_r, tint_b); the
-  // first two numbers are of no use yet. The channels' weights are w tint_r, w (3 − tint_r −
-  // tint_b) and w tint_b, w being the first texel's weight, which is their mean.
+  // Coloured tables have a second texel for each lobe: (0, 0, tint_r, tint_b); the first two
+  // numbers are not used. If w is the first texel's weight, the weights of red, green and blue are
+  // w tint_r, w (3 − tint_r − tint_b) and w tint_b; their mean is w.
   static constexpr Entry kPlain{0.0, 0.0, 1.0, 1.0};  // colourless
 
   // A table of zeros. `alpha` > 0, `lobes` ≥ 1, `views` = (T ≥ 2, P ≥ 1); throws
@@ -67,7 +68,7 @@ class LobeTable {
   Mixture mixture_at_view(int t, int p) const;
   void set_mixture_at_view(int t, int p, const Mixture& mixture);
 
-  // What a view's lobes have in store, to be put in the place of another view's as it is.
+  // All entries of a view, to be copied to another view unchanged.
   struct View {
     std::vector<Entry> entries;
     std::vector<Entry> second_entries;
@@ -75,18 +76,19 @@ class LobeTable {
   View stored_view(int t, int p) const;
   void store_view(int t, int p, const View& view);
 
-  // The lobes whose entries are the mean of view (t, p)'s and, together as much, those of the views
-  // before and after it in elevation; 0 < t < T − 1.
+  // The lobes whose entries are a mean over three elevations: view (t, p) with a share of 1/2, the
+  // views before and after it with 1/4 each. 0 < t < T − 1.
   Mixture smoothed_mixture_at_view(int t, int p) const;
 
-  // The lobes for any unit vector o, as the shader finds them: anisotropic tables fold o into the
-  // first quadrant of azimuth and mirror the slopes back, isotropic ones are read in the frame
-  // whose x axis is o's projection; entries are interpolated bilinearly. A view beyond the last
-  // elevation, or below the horizon, is the view of the last elevation and (almost) its azimuth.
+  // The lobes for any unit vector o, as the shader finds them. Anisotropic tables fold o into the
+  // first quadrant of azimuths and mirror the slopes back; isotropic tables are read in the frame
+  // whose x axis is o's projection. Entries are interpolated bilinearly. A view beyond the last
+  // elevation, or below the horizon, is taken for the view of the last elevation and (almost) the
+  // same azimuth.
   Mixture interpolate(const glm::dvec3& direction) const;
 
-  // The weights in the three channels of view (t, p)'s lobes, and their storing in a table with
-  // second texels, which makes the lobes' weights their means.
+  // Reads and stores the lobes' weights in the three channels, at view (t, p). Storing needs a
+  // table with second texels, and sets each lobe's weight to the mean of the three.
   std::vector<glm::dvec3> channel_weights_at_view(int t, int p) const;
   void set_channel_weights_at_view(int t, int p, const std::vector<glm::dvec3>& weights);
 
