@@ -6,20 +6,20 @@ extends RefCounted
 const OnDemand := preload("../on_demand.gd")
 const Widths := preload("../table/widths.gd")
 
-## The BRDFs that can be, by the names that tables have for them, and what the shader calls them.
+## The BRDFs that lines can have: the names that the shader uses, by those that tables use.
 const MODELS: Dictionary[String, String] = {
 	"ggx": "GGX", "ward": "WARD", "ward_bounded": "WARD_BOUNDED"
 }
-## How many lobes a line has, that there are few shaders.
+## The numbers of lobes that a line may have; they are few, so that there are few shaders.
 const COUNTS: PackedInt32Array = [12, 16, 24, 32, 40]
-## What is drawn where nothing else is said.
+## The BRDF of materials that have neither a table nor a set.
 const DEFAULT_BRDF := "ggx"
 const _PART := "res://addons/lobelight/runtime/line/line.gdshaderinc"
-# Who wants no more than this wants no line.
+# With a quality of no more lobes than this, there is no line.
 const _FEWEST := 8
-# Widths of the first ratio are drawn by the table, and by the line from the second on; between
-# them, by both. So are widths by the narrower one: of wide ones eight lobes of a table are more
-# exact. Ward has no tails, so that these follow it further.
+# Up to the first ratio of the widths the table draws, from the second on the line, and between the
+# two ratios both. The same holds for the narrower width, in reverse: for wide highlights the eight
+# lobes of a table are more exact. Ward has no tails, so the table stays exact further.
 const _RATIOS: Dictionary[String, Vector2] = {
 	"ggx": Vector2(3.0, 3.6), "ward": Vector2(4.5, 5.4), "ward_bounded": Vector2(4.5, 5.4)
 }
@@ -31,13 +31,13 @@ const _LARGEST := 1.0
 
 ## How many lobes the line has; 0 if the table draws all.
 var count := 0
-## Of these, how many are in use, which need not be a whole number.
+## How many of these are in use; need not be a whole number.
 var used := 0.0
-## Of the line in the light, the table's being the rest.
+## The line's share of the light; the rest is the table's.
 var share := 0.0
 ## Whether there is a table besides.
 var fades := false
-## Of the names in [constant MODELS].
+## The BRDF, one of [constant MODELS].
 var brdf := ""
 ## Whether there can be any, with other widths.
 var is_possible := false
@@ -129,7 +129,7 @@ func get_parameters_of_pixels(of_brdf: String) -> Dictionary[StringName, Variant
 	}
 
 
-## What of widths a line draws, from 0 to 1.
+## The line's share at some widths, from 0 to 1.
 func get_share(roughness: float, anisotropy: float) -> float:
 	var widths := Widths.from_roughness(maxf(roughness, 1e-3), anisotropy)
 	var narrow := minf(widths.x, widths.y)

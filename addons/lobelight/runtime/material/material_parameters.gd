@@ -2,8 +2,8 @@
 extends Object
 ## Hands a [LobeMaterial3D]'s properties to the rendering server.
 ##
-## Not as [ShaderMaterial]'s own parameters: those would be stored with the material, pyramid and
-## all.
+## They are not set as [ShaderMaterial]'s own parameters, which would be stored with the material,
+## the pyramid included.
 
 const CoordinateParameters := preload("coordinate_parameters.gd")
 const GivenParameters := preload("given_parameters.gd")

@@ -26,7 +26,7 @@ const _STENCIL_COMPARISONS: PackedStringArray = [
 	"always", "less", "equal", "less_or_equal", "greater", "not_equal", "greater_or_equal"
 ]
 const _CULL_MODES: PackedStringArray = ["cull_back", "cull_front", "cull_disabled"]
-# By what they are for.
+# The textures of effects of lamps, by the effects' defines.
 const _LAMP_TEXTURES: Dictionary[String, StringName] = {
 	"RIM": &"rim_texture",
 	"BACKLIGHT": &"backlight_texture",
@@ -34,7 +34,7 @@ const _LAMP_TEXTURES: Dictionary[String, StringName] = {
 	"TRANSMITTANCE": &"subsurf_scatter_transmittance_texture",
 	"REFRACTION": &"refraction_texture",
 }
-# How sources are reflected, by the lobes' BRDF; all others by the lobes themselves.
+# The defines for reflecting sources by a BRDF's formula; with other BRDFs, the lobes reflect them.
 const _SOURCES: Dictionary[String, String] = {
 	"ggx": "SOURCES_GGX",
 	"ward": "SOURCES_WARD",
@@ -103,7 +103,7 @@ static func _count_placed_samplers(defines: PackedStringArray) -> int:
 static func _render_modes(surface: LobeBaseMaterial3D) -> PackedStringArray:
 	var modes: PackedStringArray = []
 	if _get_diffuse_defines(surface):
-		# It has nothing to occlude: what the engine would reflect is none.
+		# The engine reflects nothing here, so there is nothing to occlude.
 		modes.append("specular_occlusion_disabled")
 	elif surface.disable_ambient_light or not surface.shadow_to_opacity:
 		modes.append("ambient_light_disabled")
@@ -236,8 +236,8 @@ static func _is_limited_by_engine() -> bool:
 	return ProjectSettings.get_setting(_LIMITER, true)
 
 
-# Whether and how the engine has a hand in the diffuse light. Not where its lamps are to be told of
-# what a shader of one's own for lamps would take from them.
+# Whether and how the engine takes part in the diffuse light. Not in materials whose lamps are
+# shaded in another way than the engine's own.
 static func _get_diffuse_defines(surface: LobeBaseMaterial3D) -> PackedStringArray:
 	if not surface.is_dielectric() or not surface.is_lit_by_surroundings():
 		return []

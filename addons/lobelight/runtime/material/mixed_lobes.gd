@@ -15,7 +15,7 @@ const SURFACE := &"surface"
 var texture: RID
 ## As [method LobeTable.get_lookup].
 var lookup: Vector4
-## What draws it.
+## The canvas item that draws it.
 var item: RID
 ## Whether the page is drawn in the next frame; the array is the page's own, of one element.
 var due: Array[bool]

@@ -1,6 +1,6 @@
 @tool
 extends Object
-## What the shader of a [LobeMaterial3D] takes for some of the material's numbers.
+## Converts numbers of a [LobeMaterial3D] to those that its shader takes.
 
 
 static func linear(colour: Color) -> Vector3:

@@ -18,10 +18,10 @@ const SHEEN_SET := "res://addons/lobelight/tables/charlie_4.res"
 
 const _MIXER := "res://addons/lobelight/runtime/mixing/table_mixer.gd"
 
-# Changes of widths that get tables of their own: what is set once needs no more.
+# After this many changes of its widths, a material gets no more tables of its own.
 const _FIRST_CHANGES := 1
 
-# Kept from one look to the next: loading a set takes a while.
+# Loaded sets by their paths: loading one takes a while.
 static var _sets: Dictionary[String, LobeTableSet] = {}
 static var _mutex := Mutex.new()
 
@@ -49,16 +49,17 @@ var roughness := 0.0
 var anisotropy := 0.0
 var rotation := 0.0
 
-# Where widths change: the isotropic tables of all, or a table that the GPU mixes.
+# For widths that change: the isotropic tables of all widths, or a table that the GPU mixes.
 var _rows: WidthsTexture
-# Of these: as LobeTable.get_lookup(), and from a width's logarithm to v.
+# How these are looked up: as LobeTable.get_lookup(), then scale and offset from a width's logarithm
+# to v.
 var _row_lookup: Vector4
 var _row_step := 0.0
 var _first_row := 0.0
 var _mixed: MixedLobes
 var _item: RID
 var _due: Array[bool]
-# How often they have, up to where it counts, and how far a set's widths go.
+# How often the widths have changed, and the least and largest width of the set.
 var _changes := 0
 var _least := 0.0
 var _largest := 1.0
@@ -71,10 +72,10 @@ var _can_follow := false
 var _stand_in: LobeTable
 
 
-## Looks anew at what the material says.
+## Chooses the lobes for the material's present properties.
 func choose(surface: LobeBaseMaterial3D) -> void:
-	# Sets find a shared table again only while somebody holds it, and the rendering server goes on
-	# drawing with its texture.
+	# Held until the end of this function: a set finds a shared table again only while somebody
+	# holds it, and the rendering server still draws with its texture.
 	@warning_ignore("unused_variable")
 	var held := [table, widths_texture, coat, sheen, _rows, _mixed]
 	roughness = surface.roughness
@@ -104,7 +105,8 @@ func choose(surface: LobeBaseMaterial3D) -> void:
 	if table != null or widths_texture != null or is_isotropic or _has_line_alone():
 		_mixed = null
 	_can_follow = is_from_set and table == null and not _has_turned
-	# Until its widths have changed time and again, the narrowest is told.
+	# A line alone follows only after its widths have changed often: until then get_narrowest()
+	# counts.
 	_can_follow = _can_follow and (_changes > _FIRST_CHANGES or not _has_line_alone())
 	coat = null
 	if surface.is_coated():
@@ -129,9 +131,9 @@ func choose_line(of_brdf: String, alpha: Vector2, count: int) -> void:
 	anisotropy = godots.y
 
 
-## Hands on other widths at once, where they take no other shader; otherwise returns false, and the
-## lobes are to be looked for anew. [param shown_anisotropy] is 0 where it is switched off. It is
-## called for each animated material in each frame, and calls little itself.
+## Sets other widths at once if they need no other shader; otherwise returns false, and [method
+## choose] has to be called. [param shown_anisotropy] is 0 if anisotropy is switched off. This is
+## called for each animated material in each frame, so it does little.
 func follow(new_roughness: float, shown_anisotropy: float, material: RID) -> bool:
 	if not _can_follow:
 		_changes += 1
@@ -186,7 +188,7 @@ func get_lookup() -> Vector4:
 	return table.get_lookup()
 
 
-## What the lobes' slopes are multiplied with, where it is the same everywhere: the widths.
+## The widths, by which the lobes' slopes are multiplied, if they are the same everywhere.
 func get_alpha() -> Vector2:
 	if table != null:
 		return table.alpha
@@ -228,7 +230,7 @@ func has_second_texels() -> bool:
 	return table != null and table.has_second_texels()
 
 
-## A number that is another one where the shader's code is, as far as it goes by the lobes.
+## A number that differs if the lobes need another shader.
 func get_shape() -> int:
 	var shape := 64 * line.count + lobe_count
 	var facts: Array[bool] = [
@@ -305,7 +307,7 @@ func _has_line_alone() -> bool:
 	return line.count > 0 and not line.fades
 
 
-# Whether the GPU mixes. Exports leave the means out where they know of no widths that change.
+# Whether the GPU mixes the table. Exports leave the files for that out if no widths change.
 func _find_mixed(tables: LobeTableSet) -> bool:
 	if OnDemand.find_loss(_MIXER, OnDemand.MIXING):
 		return false

@@ -59,7 +59,7 @@ const _SHARED_STEPS := 256.0
 var _shared: Dictionary[Vector2i, WeakRef] = {}
 var _textures: Dictionary[bool, WeakRef] = {}
 var _mutex := Mutex.new()
-# Whether the properties make a set, once that has been found out.
+# The result of the last check of the properties, and whether it is still valid.
 var _problem := ""
 var _is_checked := false
 
@@ -285,7 +285,7 @@ func _row(table: int) -> int:
 func _level(width: float) -> float:
 	var low := clampi(widths.bsearch(width, false) - 1, 0, widths.size() - 2)
 	var way := log(width / widths[low]) / log(widths[low + 1] / widths[low])
-	# A Vector2 holds single precision: what cannot be told from a width of the set is that width.
+	# A Vector2 has single precision: a number that rounds to a width of the set is that width.
 	return low + clampf(snappedf(way, 1e-5) if absf(way - roundf(way)) < 1e-5 else way, 0.0, 1.0)
 
 
@@ -297,10 +297,9 @@ func _isotropic_shares(width: float) -> Dictionary[int, float]:
 	return {first: 1.0 - (level - low), first + 1: level - low}
 
 
-# Pairs of widths that are equally many levels apart are a row of tables. Shares are those of two
-# rows, and of two neighbours in each, at the same mean of the two levels: what is kept between
-# neighbours is how long a lobe is for its breadth. The shader does the same, see
-# shaders/widths.gdshaderinc.
+# The tables whose two widths are equally many levels apart form a row: in a row the ratio of the
+# widths is the same. Two rows are mixed and, in each, the two neighbours between which the mean of
+# the two levels lies. The shader does the same, see shaders/widths.gdshaderinc.
 func _pair_shares(wide: float, narrow: float) -> Dictionary[int, float]:
 	var last := widths.size() - 1
 	var x := _level(wide)

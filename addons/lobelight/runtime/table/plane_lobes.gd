@@ -2,17 +2,17 @@
 extends RefCounted
 ## The lobes of isotropic tables as the shader takes them.
 ##
-## They lie in the plane of incidence and only the view moves them, so that directions, variances
-## and Fresnel's factor are computed here, once. A texel is (d · r, d · q, weight, weight ·
-## (1 − o · h)⁵), d being the lobe's mean times 256 times the square root of its variance, r the
-## mirror direction of the view o, and q the direction across r in the plane, on the view's side
-## ([code]lobelight_plane_lobe[/code] in [code]shaders/lobe_table.gdshaderinc[/code]).
+## These lobes lie in the plane of incidence and depend on the view's elevation only. So their
+## directions, variances and Fresnel's factor are computed here, once. A texel is (d · r, d · q,
+## weight, weight · (1 − o · h)⁵): r is the mirror direction of the view o, q is across r in the
+## plane, on the view's side, and d is the lobe's mean times 256 times the square root of its
+## variance ([code]lobelight_plane_lobe[/code] in [code]shaders/lobe_table.gdshaderinc[/code]).
 
-# As the shader takes half-vectors that are turned away from the view.
+# The least cosine between view and half-vector, as in the shader.
 const _LEAST_COSINE := 1e-4
-# Standard deviations are multiplied by it: GPUs may take half floats below 6e-5 for zero.
+# The factor of standard deviations: GPUs may take half floats below 6e-5 for zero.
 const _SCALE := 256.0
-# Views are at least as many steps apart: what is converted is to be mixed over short ways only.
+# The least number of steps over all views: converted lobes are mixed well only between close views.
 const _LEAST_STEPS := 30.0
 
 
@@ -53,8 +53,8 @@ static func convert(image: Image, lobes: int, alpha: float, last: float) -> Imag
 	return result
 
 
-# Lobes of other tables may lie beside the plane. These are brought into it, and are wider by that:
-# the two of a pair to both sides become one about the same middle.
+# Lobes of tables of other origin may lie beside the plane. They are moved into it and made wider by
+# their distance: the two lobes of a pair on both sides become alike.
 static func _convert_texel(texel: Vector4, o: Vector2, alpha: float) -> Vector4:
 	var x := texel.x * alpha
 	var y := texel.y * alpha

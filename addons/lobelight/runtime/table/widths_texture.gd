@@ -7,14 +7,13 @@ extends RefCounted
 ## many levels the widths are apart and then by the narrower one: the sampler mixes two tables whose
 ## widths are equally far apart, and the shader mixes two of these mixtures.
 
-## The widths must grow by equal factors for the shader to find them; by how much their logarithms
-## may be off.
+## How much the logarithms of widths may differ from equal steps, which the shader assumes.
 const TOLERANCE := 1e-3
 ## The layers that 3D textures have on every device (OpenGL ES 3.0, table 6.28; Vulkan 1.0, 31.1).
 const MAX_LAYERS := 256
 
-# Of isotropic tables, from one width to the next: between rows the sampler mixes what the shader
-# takes, which is not quite what tables mix.
+# Rows from one width of isotropic tables to the next. They are several because the sampler mixes
+# converted texels (plane_lobes.gd), which is not quite the same as mixing tables.
 const _ROWS_PER_WIDTH := 3
 
 const PlaneLobes := preload("plane_lobes.gd")
