@@ -4,8 +4,8 @@ extends Object
 ## or from the engine, with its ambient light, lightmaps and global illumination. Decided here, for
 ## all materials.
 ##
-## What the lit worlds have is watched on demand (engine_light/engine_watch.gd); exports leave that
-## out where no file of the project has anything of the kind.
+## A script that is loaded on demand watches what engine light the lit worlds have
+## (engine_light/engine_watch.gd); exports leave it out if no file of the project has such light.
 
 enum Source { AUTOMATIC, ENVIRONMENT, ENGINE }
 
@@ -47,8 +47,8 @@ static func get_defines(material: RID) -> PackedStringArray:
 	return []
 
 
-## Has the script at hand. Not to be called under the registry's lock: who loads may wait for other
-## threads, and these for the lock.
+## Loads the script. Not to be called under the registry's lock: loading may wait for threads that
+## wait for the lock.
 static func load_watch() -> void:
 	if _watch_script == null and OnDemand.find_loss(_WATCH, OnDemand.ENGINE_LIGHT).is_empty():
 		_watch_script = OnDemand.fetch(_WATCH, OnDemand.ENGINE_LIGHT) as GDScript

@@ -2,34 +2,34 @@
 extends Object
 ## Brings the lights of the worlds to the materials.
 ##
-## Materials belong to no world. While there is one light in all, they show it, and the neutral one
-## while there is none. With probes, with lights in several worlds, and while one light fades into
-## another, the shader finds the light of each pixel (probes/placed_lights.gd). Materials are known
-## by their RIDs; nothing is kept alive.
+## A material belongs to no world. If there is a single light, all materials show it; if there is
+## none, they show the neutral one. With probes, with lights in several worlds, and while one light
+## fades into another, the shader finds the light of each pixel (probes/placed_lights.gd). Materials
+## are known by their RIDs, so none is kept alive.
 
 const DiffuseSource := preload("diffuse_source.gd")
 const LightWorld := preload("light_world.gd")
 const NeutralLight := preload("neutral_light.gd")
 const OnDemand := preload("../on_demand.gd")
 
-# Seconds that a fade goes on by in a frame, at most.
+# The longest step of a fade in one frame, in seconds.
 const _LONGEST_STEP := 0.1
 const _NEUTRAL_WARNING := "res://addons/lobelight/runtime/warnings/neutral_warning.gd"
 const _PLACED := "res://addons/lobelight/runtime/probes/placed_lights.gd"
 
 # Resources may be created and freed on loader threads.
 static var _mutex := Mutex.new()
-# What asks each of them for another variant of its shader; this keeps no material alive either.
+# By material, what to call when it needs another variant of its shader.
 static var _materials: Dictionary[RID, Callable] = {}
-# Lights that materials were given, for which those of the worlds do not count.
+# By material, the light that it was given; it then ignores those of the worlds.
 static var _own: Dictionary[RID, LobeLight] = {}
-# For those of them that have a box, where it is, as the shader reads it.
+# By material, the box of that light, as the shader reads it.
 static var _own_lists: Dictionary[RID, Texture2D] = {}
 # The narrowest width of each one's lobes, where it is known.
 static var _widths: Dictionary[RID, float] = {}
-# By their scenarios, in the order in which they came.
+# The worlds by their scenarios, in the order in which they came.
 static var _worlds: Dictionary[RID, LightWorld] = {}
-# Made when the first material comes, dropped with the last one.
+# The neutral light: made with the first material, dropped with the last one.
 static var _neutral: LobeLight
 # What materials show: one light, or the lights of all places.
 static var _shown: LobeLight
@@ -105,8 +105,8 @@ static func remove_material(material: RID) -> void:
 	_mutex.unlock()
 
 
-## Tells of a material how narrow its lobes are at least, see [method LobeLight.apply]; 0 if that is
-## not known.
+## Sets the narrowest width among a material's lobes, see [method LobeLight.apply]; 0 if it is not
+## known.
 static func set_width(material: RID, width: float) -> void:
 	_mutex.lock()
 	if _widths.get(material, 0.0) != width:
@@ -171,7 +171,8 @@ static func add_probe(world: World3D, owner: int, light: LobeLight) -> void:
 	_mutex.unlock()
 
 
-## Lights have other places, or a probe's has been drawn: looks anew at what materials are to show.
+## To be called when lights have moved or a probe's light has been drawn: chooses again what
+## materials show.
 static func refresh() -> void:
 	_mutex.lock()
 	_refresh()
@@ -250,7 +251,7 @@ static func find_loss() -> String:
 	return OnDemand.find_loss(_PLACED, OnDemand.PLACES)
 
 
-# Not under the lock: scripts load others, and who loads may wait for other threads, and these for
+# Not to be called under the lock: loading a script may wait for other threads, which may wait for
 # the lock.
 static func _load_places() -> void:
 	if _placed_script == null and not _is_loss_told:
@@ -295,8 +296,9 @@ static func _get_world(world: World3D) -> LightWorld:
 	return _worlds[world.scenario]
 
 
-# What scripts keep in static variables outlives the tree, and a lambda whose object dies after
-# that ends the engine by a signal (Godot 4.6). Nodes take connections on the main thread only.
+# Static variables outlive the tree, and if a lambda's object dies after the tree, the engine
+# crashes (Godot 4.6). So all is dropped when the tree ends. Nodes may be connected to on the main
+# thread only.
 static func _watch() -> void:
 	var tree := Engine.get_main_loop() as SceneTree
 	if _is_watched or tree == null or OS.get_thread_caller_id() != OS.get_main_thread_id():
@@ -340,7 +342,7 @@ static func _find_lit() -> Array[LightWorld]:
 	return lit
 
 
-# Looks anew at what materials are to show.
+# Chooses again what materials show.
 static func _refresh() -> void:
 	var lit := _find_lit()
 	var places := lit.size()
@@ -371,7 +373,7 @@ static func _refresh() -> void:
 	_start_aging()
 
 
-# What the engine has in the lit worlds counts. Whether it is something else than before.
+# Looks at the engine's own light in the lit worlds; returns whether that has changed.
 static func _follow_engine(lit: Array[LightWorld]) -> bool:
 	var worlds: Array[World3D] = []
 	var with_probes: Array[World3D] = []
@@ -398,7 +400,7 @@ static func _get_neutral() -> LobeLight:
 static func _apply(material: RID) -> void:
 	if _own.has(material):
 		var own := _own[material]
-		# From inside a box, lobes may see less of it than they would from its middle.
+		# Lobes may see less of a box from a place inside than from its middle.
 		own.apply(material, 0.0 if own.has_box() else _widths.get(material, 0.0))
 		if _has_own_place(own):
 			_own_lists[material] = _placed_script.make_list(own)
@@ -429,7 +431,7 @@ static func _ask_for_variant(material: RID) -> void:
 		_materials[material].call_deferred()
 
 
-# Lights that go or fade do so by frames; nothing is called while none does.
+# Called in each frame while a light goes or fades, and only then.
 static func _start_aging() -> void:
 	var ages := _worlds.values().any(func(world: LightWorld) -> bool: return world.is_aging())
 	if ages and not _is_aging:

@@ -3,19 +3,19 @@ extends RefCounted
 ## The lights of one world: what its environments and probes have given, and what is shown until
 ## they have.
 
-# Frames for which a light that has been taken back stays, so that the environment of the next
-# scene can come; while that one makes its light, the old one stays for longer.
+# A light that is taken back stays for this many frames, in case the next scene has an environment.
+# While that one makes its first light, the old light stays longer.
 const _GRACE := 3
-# Lights that are still seen through those that fade in over them; older ones are dropped.
+# The most lights that are still seen under those that fade in; older ones are dropped.
 const _MOST_FADED := 2
 
-## By the instance id of who offers it, in the order of the offers.
+## The lights of environments, by the instance ids of who offers them, in the order of the offers.
 var environments: Dictionary[int, LobeLight] = {}
-## By the instance id of the probe.
+## The lights of probes, by the probes' instance ids.
 var probes: Dictionary[int, LobeLight] = {}
 ## The environments that are making their first light.
 var pending: Dictionary[int, bool] = {}
-## What the current light fades in over, the newest first.
+## The lights that the current one fades in over, the newest first.
 var faded: Array[LobeLight] = []
 ## By the same index: the share, from 0 to 1, of what has faded in over that light.
 var shares: Array[float] = []

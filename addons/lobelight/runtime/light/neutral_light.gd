@@ -21,8 +21,8 @@ static func make() -> LobeLight:
 		faces.append(_make_face(face))
 	light.cubemap.create_from_images(faces)
 	light.size = SIZE
-	# generate_mipmaps takes 2 × 2 means, for which the level's variance is right as it is. Their
-	# texels shrink towards the corners of the cube, which in light as soft as this does not show.
+	# generate_mipmaps makes means of 2 × 2 texels, for which LobeLight's default variance is right.
+	# Their blur shrinks towards the corners of the cube; in light as soft as this it does not show.
 	light.is_even = true
 	return light
 

@@ -12,8 +12,8 @@ static func fetch(code: String) -> Shader:
 	var shader := _find(code)
 	if shader != null:
 		return shader
-	# Not under the lock: what the code includes may have to be loaded, and who loads may wait for
-	# other threads, and these for the lock.
+	# Not under the lock: includes may have to be loaded, and loading may wait for threads that wait
+	# for the lock.
 	var made := Shader.new()
 	made.code = code
 	_mutex.lock()

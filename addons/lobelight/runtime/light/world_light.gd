@@ -4,7 +4,7 @@ extends RefCounted
 ## The light of the world around a node: what environment_source.gd asks of world_views.gd, which
 ## exports leave out where light comes from panoramas only.
 
-## What is drawn of the world: nothing, since its sky is but a panorama; the sky; the scene.
+## What is drawn of the world: nothing, if its sky is a panorama; the sky; or the scene.
 enum Views { NONE, SKY, SCENE }
 
 const FaceViews := preload("../pyramid/face_views.gd")
@@ -36,7 +36,7 @@ static func find_loss() -> String:
 ## That light, linear.
 @abstract func find_even_light() -> Color
 
-## Why that light is none, or shows nothing, and what to do, in a sentence; empty if it is as meant.
+## Why that light is missing or black, and what to do, in a sentence; empty if there is light.
 @abstract func find_shortage() -> String
 
 ## From the sky to the world.

@@ -1,7 +1,7 @@
 @tool
 extends RefCounted
-## Where the light of a [LobeEnvironment3D] comes from at the moment: which of the ways to get at it
-## is taken, whether it has changed, and the chain that draws it.
+## Where the light of a [LobeEnvironment3D] comes from at the moment: which kind of source it is,
+## whether it has changed, and the chain that draws it.
 
 ## A panorama of the node's, the same light from all sides as there is no sky, the panorama of a
 ## sky, views of a sky, views of the scene.
@@ -25,8 +25,8 @@ const DEFAULT_SIZE := 256
 # Pixels of a view along the side of a texel. Skies have suns of few texels; scenes cost more.
 const _SKY_SAMPLES := 2
 const _SCENE_SAMPLES := 1
-# Frames after which sources that are no more are believed to have gone: materials are asked for
-# other shaders then, which is not to happen for each cloud.
+# After this many frames without sources they count as gone, and materials get other shaders. It is
+# so long that a cloud before the sun does not change shaders.
 const _PATIENCE := 30
 
 # 0 or 1 once it is known.
@@ -55,7 +55,7 @@ static func find_budget() -> float:
 	return maxf(ProjectSettings.get_setting_with_override(BUDGET_SETTING), 0.0)
 
 
-## Which part of the run time it would take that this export has left out, in a sentence; empty if
+## Which part of the run time is missing because the export has left it out, in a sentence; empty if
 ## none.
 func find_loss() -> String:
 	var losses: Array[String] = [PyramidChain.find_loss(), Pyramid.find_loss(_settings.filter)]
@@ -83,8 +83,8 @@ func find_obstacle() -> String:
 	return ""
 
 
-## Looks at the source as it is now; whether it shows something else than at the last look. A turned
-## sky panorama or another energy of it shows the same, see [method place].
+## Looks at the source; returns whether it has changed since the last look. A panorama of a sky that
+## is turned or has another energy counts as unchanged, see [method place].
 func look() -> bool:
 	if _settings.takes_panorama():
 		_world = null
@@ -100,8 +100,8 @@ func look() -> bool:
 	return _make_key() != _key or changed
 
 
-## What is being drawn; what stays the same is taken from [param chain], which may be null. Even
-## light needs no drawing: null.
+## The chain that draws the light. It takes over from [param chain], which may be null, what stays
+## the same. Even light needs no drawing: null.
 func make_chain(chain: PyramidChain) -> PyramidChain:
 	var key := _make_key()
 	if _kind == Kind.EVEN:
@@ -258,7 +258,7 @@ func leave_world() -> bool:
 	return true
 
 
-# Where nothing is searched, no answer would ever say that they have gone.
+# Without a search nothing would ever say that the sources have gone, so they are forgotten.
 func _forget_sources() -> void:
 	_takes_sources = false
 	_gone = 0

@@ -14,12 +14,14 @@ const PyramidChain := preload("../pyramid/pyramid_chain.gd")
 
 # Frames without an update after which the memory for drawing is given back.
 const _IDLE_FRAMES := 120
-# A source in which nothing has changed for so many frames is looked at in every sixth only.
+# After this many frames without a change, the source is looked at only once in _STILL_STEP frames.
 const _STILL_FRAMES := 120
 const _STILL_STEP := 6
-# Captures after that of a change, each of which brings one more reflection between materials.
+# After a change, captures that follow the first one; each adds one more reflection between
+# materials.
 const _ECHOES := 3
-# Milliseconds in which a scene may still get the sky that its light lacks.
+# How long a scene may take to set the sky that its light lacks, in milliseconds, before it is
+# warned of.
 const _PATIENCE := 2000
 
 ## What has been drawn; [code]null[/code] until then, and where it cannot be.
@@ -38,13 +40,12 @@ var frames := 0
 var _settings: LightSettings
 # To be called when an update has ended; whether the light is another object than before.
 var _on_end: Callable
-# Whether the light is older than the properties, and whether what it is made from has told that it
-# is another.
+# Whether the light is older than the properties, and whether its source has signalled a change.
 var _stale := true
 var _is_told_of_change := false
 var _kind := EnvironmentSource.Kind.NONE
-# Of the update under way: whether there is one, how it is spread over frames, in how many, which
-# slice comes next, and whether it is drawn.
+# The update under way: whether there is one, how and over how many frames it is spread, the next
+# slice, and whether that has been drawn.
 var _running := false
 var _pace := PyramidChain.Pace.WHOLE
 var _count := 1
@@ -57,13 +58,13 @@ var _idle := 0
 var _still := 0
 var _waits: Array[FrameWait] = []
 var _is_watching := false
-# Captures that are still to follow, and whether materials have shown no light but the node's
-# captures since these began without any.
+# Captures that are still to follow, and whether materials have shown nothing but this node's
+# captures, the first of which was made in the dark.
 var _echoes := 0
 var _lit_by_itself := false
 # What materials draw besides the light's faces.
 var _sources: Texture2D
-# Whether it has been told what the light lacks, and when, in milliseconds, it is to be.
+# Whether the warning of a missing light has been given, and the time for it, in milliseconds.
 var _is_told := false
 var _tell_time := 0
 var _gpu_time := 0.0
@@ -75,7 +76,7 @@ func _init(settings: LightSettings, on_end: Callable) -> void:
 	source = EnvironmentSource.new(settings)
 
 
-## Nothing is drawn any more, and nobody waits.
+## Stops drawing, and ends the wait of everybody who waits for an update.
 func end() -> void:
 	_running = false
 	light = null
@@ -85,13 +86,13 @@ func end() -> void:
 		wait.go_on()
 
 
-## What the light is made from, or how, is another.
+## To be called when the source or the way to filter it has changed.
 func mark_stale() -> void:
 	_stale = true
 	_watch_frames()
 
 
-## What the light is made from tells that it is another.
+## To be called when the source signals a change.
 func follow_change() -> void:
 	_is_told_of_change = true
 	if light == null:
@@ -136,7 +137,7 @@ func place() -> bool:
 	return light != null and source.place(light, _kind)
 
 
-## What has been drawn of another world's light is of no use.
+## To be called when the node leaves its world: that world's light is dropped.
 func leave_world() -> void:
 	_lit_by_itself = false
 	is_in_the_dark = false
@@ -155,8 +156,8 @@ func follow_move() -> void:
 		mark_stale()
 
 
-# Until the update has ended. A later call may start it anew; its result is this one's too. What is
-# awaited is not the light's own, so that the caller may free the node then.
+# Waits until the update has ended. A later call may start the update again; both calls then get its
+# result. The awaited object is not this one, so that the caller may free the node afterwards.
 func _wait() -> bool:
 	var wait := FrameWait.new()
 	_waits.append(wait)
@@ -193,7 +194,7 @@ func _stop_watching() -> void:
 		RenderingServer.frame_post_draw.disconnect(_on_frame_post_draw)
 
 
-# While nothing can change but by what calls the node, nothing is called in each frame.
+# Stops the calls in each frame if nothing can change without a call to the node.
 func _rest_if_settled() -> void:
 	var is_due := _stale or _is_told_of_change or _echoes > 0
 	if _running or chain != null or _settings.is_active and is_due:
@@ -208,7 +209,7 @@ func _rest_if_settled() -> void:
 		_stop_watching()
 
 
-# All the frame's changes have been made by now.
+# Called when the frame's changes have all been made.
 func _on_frame_pre_draw() -> void:
 	# Hidden nodes, and those that wait for another one to leave, make nothing.
 	if _settings.is_active and not _running:
@@ -324,8 +325,8 @@ func _begin(pace: PyramidChain.Pace) -> bool:
 	return true
 
 
-# What materials show before the node's first capture is no light of the scene's, unless another
-# environment has lit it until now: that one stays, so that nothing flashes.
+# Before the node's first capture materials show no light, because there is none of this scene's.
+# But if another environment has lit the world until now, its light stays, so that nothing flashes.
 func _prepare_capture() -> void:
 	var captures := source.get_kind() == EnvironmentSource.Kind.SCENE_VIEWS
 	_echoes = _ECHOES if captures and not _is_continual() else 0

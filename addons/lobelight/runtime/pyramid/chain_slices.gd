@@ -20,7 +20,8 @@ class Slice:
 const LightSearch := preload("light_search.gd")
 const Pyramid := preload("pyramid.gd")
 
-# Levels that are drawn before the others in any case: with the rest they would be too much at once.
+# The finest levels, which are never drawn in one slice with the rest: that would be too much at
+# once.
 const _LARGE_LEVELS := 2
 
 
@@ -64,7 +65,7 @@ static func spread(
 		var row := 0
 		while row < rows:
 			var count := mini(floori(minf(left / row_cost, rows)), rows - row)
-			# What is left may be less than nothing, after a row or a pass that has more than it may.
+			# The rest may be negative after a row or a pass of more fetches than allowed.
 			if count <= 0 and not _is_empty(slices.back()):
 				slices.append(Slice.new())
 				left = most

@@ -20,13 +20,13 @@ const PyramidCube := preload("pyramid_cube.gd")
 const _GPU_CUBE := "res://addons/lobelight/runtime/rendering_device/gpu_cube.gd"
 const _PACKED_CUBE := "res://addons/lobelight/runtime/compatibility/packed_cube.gd"
 
-# The engine tells some frames later what drawing a viewport took, and only if it draws it in that
-# frame as well.
+# Frames to wait for a measured time: the engine reports it some frames later, and only if the
+# viewport is drawn in that frame, too.
 const _CLOCK_FRAMES := 8
-# What a GPU does in a millisecond at least, in fetches of [code]Pyramid.count_fetches[/code]: a
-# phone of 2013. Faster ones are measured.
+# The assumed speed of a GPU until it is measured, in fetches (Pyramid.count_fetches) a millisecond:
+# that of a phone of 2013.
 const _LEAST_SPEED := 0.4e6
-# Measured times are not taken to be shorter.
+# Shorter measured times count as this long, in milliseconds.
 const _SHORTEST_TIME := 0.05
 
 ## Null if the light comes from a panorama.
@@ -46,8 +46,8 @@ var _speed := _LEAST_SPEED
 # The fetches of the finest level in its last draws.
 var _drawn: PackedFloat64Array = []
 var _is_measured := false
-# Frames in which the last update is still to be drawn again for the clock's sake, and what came of
-# it: what is drawn in slices is measured as a whole.
+# Frames in which the last update is still to be drawn again so that its time is reported, and that
+# time. An update in slices is measured as a whole.
 var _clock_frames := 0
 var _clock_time := 0.0
 
@@ -74,8 +74,8 @@ func make_cube(texture: TextureLayered = null) -> void:
 	plan(Pace.SLICED)
 
 
-## Has slices take no more than some milliseconds of the GPU, as well as that can be known; the
-## views take what they take. What the GPU does in a millisecond is measured while slices are drawn.
+## Limits the time of a slice on the GPU, as far as it can be predicted: the GPU's speed is measured
+## while slices are drawn. Views are not limited.
 func limit(milliseconds: float) -> void:
 	_budget = milliseconds
 	var viewport := pyramid.levels[0].viewport
@@ -175,9 +175,9 @@ func _make_slices(pace: Pace) -> Array[ChainSlices.Slice]:
 	return ChainSlices.at_once(faces, search, pyramid, cube.slices, at_once)
 
 
-# To be called when the finest level is drawn, with what that takes. The engine tells of a draw when
-# the same viewport is drawn some frames later. Which one it was is not said: the least of the last
-# ones is assumed.
+# To be called when the finest level is drawn, with its number of fetches. The engine reports the
+# time of an earlier draw of the viewport, but not of which one: the cheapest of the last draws is
+# assumed.
 func _measure_speed(fetches_now: float) -> void:
 	const LATEST := 4
 	if _budget == 0.0:

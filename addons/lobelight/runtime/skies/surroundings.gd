@@ -58,12 +58,12 @@ var copy := Environment.new()
 
 var _node: Node3D
 var _with_scene: bool
-# What was seen at the last look, and how many of it at this one.
+# The values that the last look saw, and how many of them this look has compared.
 var _seen: Array = []
 var _count := 0
 var _differs := false
 var _texture_changed := false
-# The same in short, as it was asked last, and whether a texture of the sky changes by itself.
+# A short form of these, for a quick look, and whether a texture of the sky changes by itself.
 var _state: Array = []
 var _is_live := false
 # The sky material whose properties these are, and its shader.
@@ -94,8 +94,8 @@ func find_camera() -> Camera3D:
 	return _node.get_viewport().get_camera_3d()
 
 
-## Whether there is no sky that lights anything, nor fog before the background, which has the sun in
-## it: light comes evenly from all sides.
+## Whether light comes evenly from all sides: there is no sky that lights anything, and no fog
+## before the background, which the sun would colour.
 func is_even() -> bool:
 	var environment := find_environment()
 	if environment == null:
@@ -220,7 +220,7 @@ func _copy_background(environment: Environment) -> void:
 		# Seen or not.
 		copy.background_mode = Environment.BG_SKY
 	elif environment.background_mode > Environment.BG_SKY:
-		# Canvases, camera feeds and what was there before are no light.
+		# Canvases, camera feeds and "keep" are no light.
 		copy.background_mode = Environment.BG_COLOR
 		copy.background_color = Color.BLACK
 
