@@ -196,6 +196,11 @@ refuses "web, headers without a server" "--isolated goes with --serve" web --iso
 refuses "web-check, an unknown option" "--colour" web-check --colour red
 refuses "web-check, an output that is a file" "is not a folder" web-check --out "$environment"
 refuses "web-check, JSON in a missing folder" "missing/a.json" web-check --json missing/a.json
+refuses "docs, an unknown option" "--colour" docs --colour red
+refuses "docs, an output that is a file" "is not a folder" docs --out "$environment"
+refuses "docs, an output that holds something else" "something else than a site" docs --out "$root/demo"
+refuses "docs, JSON in a missing folder" "missing/a.json" docs --json missing/a.json
+refuses "docs, a port that is none" "not 'here'" docs --serve here
 refuses "diet, nothing to look at" "SCENE|PROJECT" diet
 refuses "diet, a scene that is not there" "absent.tscn" diet absent.tscn
 refuses "diet, a file that is no scene" "is not a scene" diet "$root/README.md"

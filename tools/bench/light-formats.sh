@@ -10,6 +10,7 @@ usage: ./dev bench light-formats --env FILE [--renderer R] [--formats F:N,…] [
 A panorama, filtered by the library, lights GGX spheres of several widths by its faces in several formats. PSNR is that of
 ./dev compare, beside the reference integrator and beside the first format, which is what live light has.
 
+--env FILE     the panorama (.exr or .hdr)
 --renderer R   mobile (default), gl_compatibility or forward_plus
 --formats      half, rgb9e5, bptc (BC6H) or astc, each with the texels along the side of a face
                (default half:512,rgb9e5:512,rgb9e5:256,bptc:512,astc:512)

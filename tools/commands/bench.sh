@@ -8,6 +8,21 @@ if [[ ${1:-} == runtime || ${1:-} == rooms || ${1:-} == flicker || ${1:-} == lig
   exec bash "$ROOT/tools/bench/$part.sh" "$@"
 fi
 
+usage() {
+  cat <<USAGE
+usage: ./dev bench [--quick] [--only PART] [--json FILE] [--out DIR]
+       ./dev bench runtime|rooms|flicker|light-formats [OPTIONS]
+
+--quick       two slices and few settings: a minute
+--only PART   rivals, curve or speed
+--json FILE   all numbers
+--out DIR     figures and data (default: build/bench)
+
+runtime, rooms, flicker and light-formats measure other things; ./dev bench runtime --help, say, tells more.
+USAGE
+}
+
+help_if_asked "$@"
 BENCH_PROBES=("header benchmark/benchmark.h libbenchmark-dev")
 
 need_packages

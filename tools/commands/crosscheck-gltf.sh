@@ -2,6 +2,17 @@
 # draws glTF's anisotropy, strengths, rotations and textures, and compares it with Mitsuba 3 ([--renderer R] [--out DIR] [--json FILE])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
+usage() {
+  cat <<USAGE
+usage: ./dev crosscheck-gltf [--renderer R] [--out DIR] [--json FILE]
+
+--renderer R  mobile (default), gl_compatibility or forward_plus
+--out DIR     the pictures of both sides (otherwise they are not kept)
+--json FILE   the results
+USAGE
+}
+
+help_if_asked "$@"
 renderer=mobile
 out=""
 json=""

@@ -2,6 +2,16 @@
 # checks the form of C++, GDScript and shell code, and who knows whom in the run time ([--fix] [--json FILE])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
+usage() {
+  cat <<USAGE
+usage: ./dev lint [--fix] [--json FILE]
+
+--fix         formats C++ and GDScript first
+--json FILE   {"passed", "failed", "tools": [{"name", "files", "passed"}]}
+USAGE
+}
+
+help_if_asked "$@"
 fix=false
 json=""
 while (($# > 0)); do

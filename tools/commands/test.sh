@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers stereo web render); [--json FILE] [--sanitize KIND]
+# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands docs export cost crosscheck accuracy renderers stereo web render); [--json FILE] [--sanitize KIND]
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/gdunit.sh
 source "$ROOT/tools/lib/gdunit.sh"
@@ -16,7 +16,7 @@ source "$ROOT/tools/testing/lanes.sh"
 # shellcheck source=tools/testing/sanitizers.sh
 source "$ROOT/tools/testing/sanitizers.sh"
 
-GROUPS_OF_TESTS=(lint harness standin cpp stability native runtime editor demo commands export cost crosscheck accuracy renderers stereo web render)
+GROUPS_OF_TESTS=(lint harness standin cpp stability native runtime editor demo commands docs export cost crosscheck accuracy renderers stereo web render)
 
 usage() {
   cat <<USAGE

@@ -262,6 +262,20 @@ need_web_template() {
   export WEB_TEMPLATE
 }
 
+# class_xml_key: what the scripts' class reference depends on.
+class_xml_key() {
+  echo "$(fingerprint "$ROOT/addons/lobelight/runtime" "$ROOT/tools/setup/class_xml.sh") $GODOT"
+}
+
+# need_class_xml: sets CLASS_XML, a folder with the class reference of the addon's scripts as the engine writes it.
+need_class_xml() {
+  need_engine
+  CLASS_XML=$ROOT/build/class-xml
+  if ! stamp_is "$CLASS_XML/key" "$(class_xml_key)"; then
+    locked "$ROOT/build/class-xml.lock" bash "$ROOT/tools/setup/class_xml.sh" "$CLASS_XML"
+  fi
+}
+
 # need_browser: Chromium, and PYTHON with what drives it.
 need_browser() {
   local probes=("file /usr/bin/chromium chromium")

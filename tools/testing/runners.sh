@@ -105,6 +105,7 @@ prepare_tests() {
   [[ ! $wanted =~ \ export_(android|web)\  ]] || bake_demo_tables "${DEMO_SETS[@]}"
   [[ ! $wanted =~ \ (export_web|browser)\  ]] || need_web_template
   [[ ! $wanted =~ \ (export_web|browser)\  ]] || need_browser
+  [[ $wanted != *" docs "* ]] || { need_class_xml && need_browser && need_python docs; }
   [[ ! $wanted =~ \ (stability|stability_changes)\  ]] || need_python stability
   [[ $wanted != *" crosscheck "* ]] || need_python crosscheck
   [[ ! $wanted =~ \ (report|report_smoke|commands)\  ]] || need_python report
@@ -214,6 +215,14 @@ run_stereo() {
 run_commands() {
   run_logged commands in_time bash "$ROOT/tests/commands/errors_test.sh"
   judge commands
+}
+
+# What ./dev docs finds in bad pages, and the site itself.
+run_docs() {
+  run_logged docs-checks in_time "$PYTHON" "$ROOT/tests/commands/docs_test.py"
+  judge docs-checks
+  run_logged docs in_time bash "$ROOT/tools/commands/docs.sh" --check --out "$RESULTS/docs-site"
+  judge docs
 }
 
 # What the set-up does where the outside changes.

@@ -3,6 +3,9 @@ class_name VisualShaderNodeLobelightEmission
 extends "light_node.gd"
 ## What goes to the output [i]Emission[/i] for linear radiance, in all renderers: the node
 ## [i]Lobelight Emission[/i] of visual shaders, for radiance that was computed with.
+##
+## The function [code]lobelight_emission()[/code] of
+## [code]res://addons/lobelight/lobelight.gdshaderinc[/code].
 
 
 func _get_name() -> String:

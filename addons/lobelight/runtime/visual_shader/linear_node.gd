@@ -3,6 +3,9 @@ class_name VisualShaderNodeLobelightLinear
 extends "light_node.gd"
 ## The colour of a parameter or a texture as linear colour in all renderers: the node
 ## [i]Lobelight Linear[/i] of visual shaders. Compatibility hands such colours out as sRGB.
+##
+## The function [code]lobelight_linear()[/code] of
+## [code]res://addons/lobelight/lobelight.gdshaderinc[/code].
 
 
 func _get_name() -> String:

@@ -1,0 +1,55 @@
+"""What MkDocs calls while it builds: anchors as on GitHub, equations as MathML, names of classes as links."""
+
+import html
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import latex2mathml.converter  # noqa: E402
+
+from bbcode import anchor  # noqa: E402
+from markdown_text import slug  # noqa: E402
+from pages import NO_TARGET, relative  # noqa: E402
+
+MATHS = re.compile(r'<(?P<tag>span|div) class="arithmatex">(?:\\\(|\\\[)(?P<tex>.*?)(?:\\\)|\\\])</(?P=tag)>', re.DOTALL)
+# Code that is a class's name, or one with a member's; links and headings are left as they are.
+PIECES = re.compile(r"<a\b.*?</a>|<h\d.*?</h\d>|<pre.*?</pre>|<code>(?P<code>[\w.()]+)</code>", re.DOTALL)
+NOWHERE = re.compile(rf'<a href="{re.escape(NO_TARGET)}">(.*?)</a>', re.DOTALL)
+NAME = re.compile(r"(?P<owner>Lobe\w+?)(?:\.(?P<member>\w+)(?P<call>\(\))?)?")
+
+
+def on_config(config):
+    config.mdx_configs.setdefault("toc", {})["slugify"] = slug
+    return config
+
+
+def on_page_content(content, page, config, files):
+    content = NOWHERE.sub(r"\1", content)
+    content = MATHS.sub(_mathml, content)
+    here = page.file.src_uri
+    known = {file.name: file.src_uri for file in files.documentation_pages() if file.src_uri.startswith("classes/Lobe")}
+    return PIECES.sub(lambda match: _linked(match, here, known, config), content)
+
+
+def _mathml(match):
+    tex = html.unescape(match["tex"]).strip()
+    display = "block" if match["tag"] == "div" else "inline"
+    mathml = latex2mathml.converter.convert(tex, display=display)
+    return f'<div class="equation">{mathml}</div>' if display == "block" else mathml
+
+
+def _linked(match, here, known, config):
+    name = NAME.fullmatch(match["code"] or "")
+    if not name or name["owner"] not in known or known[name["owner"]] == here:
+        return match[0]
+    page = relative(known[name["owner"]].removesuffix(".md") + ".html", here)
+    fragment = ""
+    if name["member"]:
+        members = config.extra["members"].get(name["owner"], {})
+        kind = members.get(name["member"])
+        if not kind:
+            return match[0]
+        fragment = f"#{anchor(kind, name['member'])}"
+    return f'<a href="{page}{fragment}">{match[0]}</a>'
