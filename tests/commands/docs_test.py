@@ -238,7 +238,7 @@ def test_site() -> list[str]:
         write(root / "docs/index.md", HOME)
         write(root / "addons/lobelight/plugin.cfg", 'version="1.2.3"\n')
         write(root / site_build.LOGO, "<svg xmlns='http://www.w3.org/2000/svg'/>")
-        site, findings = site_build.build(root, {"LobeTable": a_class("LobeTable")}, Path(folder) / "work")
+        site, findings = site_build.build(root, {"LobeTable": a_class("LobeTable")}, Path(folder) / "work", [])
         problems = [str(finding) for finding in [*findings, *site_build.foreign_resources(site)]]
         home = (site / "index.html").read_text(encoding="utf-8")
         table = (site / "classes/LobeTable.html").read_text(encoding="utf-8")

@@ -62,14 +62,15 @@ fi
 
 need_engine
 need_class_xml
+need_maths_font
 if ((${#check[@]} > 0)); then need_browser; fi
 need_python docs
 export PYTHONDONTWRITEBYTECODE=1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 status=0
-"$PYTHON" "$ROOT/tools/docs/docs.py" --xml "$CLASS_XML" --work "$work/site" --out "$out" ${json:+--json "$json"} \
-  "${check[@]}" || status=$?
+"$PYTHON" "$ROOT/tools/docs/docs.py" --xml "$CLASS_XML" --work "$work/site" --fonts "${MATHS_FONT[@]}" --out "$out" \
+  ${json:+--json "$json"} "${check[@]}" || status=$?
 if [[ -n $port && -d $out ]]; then
   rm -rf "$work"
   trap - EXIT

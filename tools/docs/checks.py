@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 import pages
@@ -116,7 +117,7 @@ class Checks:
             if re.search(r"--(?:out|json|export|pictures)[= ]+$", before):
                 continue
             self.counts["paths"] += 1
-            there = any(self.root.glob(path.rstrip("/"))) if "*" in path else exists(self.root, self.root / path)
+            there = matches(self.root, path) if "*" in path else exists(self.root, self.root / path)
             if not there:
                 self.find(page, code.start + match.start(), f"{match['path']} is not in the repository")
 
@@ -142,6 +143,12 @@ def drawn(root: Path) -> dict[str, tuple[int, str]]:
     lines = enumerate((root / PICTURES).read_text(encoding="utf-8").splitlines(), start=1)
     entries = ((number, *line.split(maxsplit=1)) for number, line in lines if line.strip() and not line.startswith("#"))
     return {name: (number, command) for number, name, command in entries}
+
+
+def matches(root: Path, pattern: str) -> bool:
+    """Whether a pattern, as filters of exports have them, fits any file: * stands for folders too."""
+    folder = root / pattern[: pattern.index("*")].rpartition("/")[0]
+    return any(fnmatchcase(path.relative_to(root).as_posix(), pattern.rstrip("/")) for path in folder.rglob("*"))
 
 
 def exists(root: Path, path: Path) -> bool:

@@ -22,13 +22,14 @@ def main() -> int:
     parser = argparse.ArgumentParser(allow_abbrev=False)
     parser.add_argument("--xml", type=Path, required=True)
     parser.add_argument("--work", type=Path, required=True)
+    parser.add_argument("--fonts", type=Path, nargs="+", required=True)
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--json", type=Path)
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
 
     found = classes.read([options.xml, ROOT / "addons/lobelight/doc_classes"])
-    site, findings = site_build.build(ROOT, found, options.work)
+    site, findings = site_build.build(ROOT, found, options.work, options.fonts)
     findings += [Finding("class reference", sentence) for sentence in classes.findings(found)]
     checks = Checks(ROOT)
     for path in [ROOT / "README.md", *pages.sources(ROOT)]:

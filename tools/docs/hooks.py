@@ -14,8 +14,10 @@ from markdown_text import slug  # noqa: E402
 from pages import NO_TARGET, relative  # noqa: E402
 
 MATHS = re.compile(r'<(?P<tag>span|div) class="arithmatex">(?:\\\(|\\\[)(?P<tex>.*?)(?:\\\)|\\\])</(?P=tag)>', re.DOTALL)
+NUMBER = re.compile(r"\s*\\tag\{(?P<number>[^}]*)\}")
 # Code that is a class's name, or one with a member's; links and headings are left as they are.
 PIECES = re.compile(r"<a\b.*?</a>|<h\d.*?</h\d>|<pre.*?</pre>|<code>(?P<code>[\w.()]+)</code>", re.DOTALL)
+PICTURES = re.compile(r'<a\b.*?</a>|<img\b[^>]*\bsrc="(?P<source>[^":]+)"[^>]*>', re.DOTALL)
 NOWHERE = re.compile(rf'<a href="{re.escape(NO_TARGET)}">(.*?)</a>', re.DOTALL)
 NAME = re.compile(r"(?P<owner>Lobe\w+?)(?:\.(?P<member>\w+)(?P<call>\(\))?)?")
 
@@ -28,16 +30,25 @@ def on_config(config):
 def on_page_content(content, page, config, files):
     content = NOWHERE.sub(r"\1", content)
     content = MATHS.sub(_mathml, content)
+    content = PICTURES.sub(_with_link, content)
     here = page.file.src_uri
     known = {file.name: file.src_uri for file in files.documentation_pages() if file.src_uri.startswith("classes/Lobe")}
     return PIECES.sub(lambda match: _linked(match, here, known, config), content)
 
 
+def _with_link(match):
+    """Figures are drawn for wider windows than a page's column: a click shows them whole."""
+    return match[0] if not match["source"] else f'<a href="{match["source"]}">{match[0]}</a>'
+
+
 def _mathml(match):
     tex = html.unescape(match["tex"]).strip()
-    display = "block" if match["tag"] == "div" else "inline"
-    mathml = latex2mathml.converter.convert(tex, display=display)
-    return f'<div class="equation">{mathml}</div>' if display == "block" else mathml
+    if match["tag"] != "div":
+        return latex2mathml.converter.convert(tex)
+    number = NUMBER.search(tex)
+    mathml = latex2mathml.converter.convert(NUMBER.sub("", tex), display="block")
+    shown = f'<span class="number">({number["number"]})</span>' if number else ""
+    return f'<div class="equation">{mathml}{shown}</div>'
 
 
 def _linked(match, here, known, config):

@@ -61,15 +61,17 @@ def filled(nav: list, present: set[str], class_nav: list) -> list:
     return out
 
 
-def build(root: Path, found: dict[str, ElementTree.Element], work: Path) -> tuple[Path, list[Finding]]:
-    """Builds the site below `work`; gives its folder and what MkDocs warned of."""
+def build(root: Path, found: dict[str, ElementTree.Element], work: Path, fonts: list[Path]) -> tuple[Path, list[Finding]]:
+    """Builds the site below `work`, with these files of a font and its licence; gives its folder and what MkDocs warned of."""
     shutil.rmtree(work, ignore_errors=True)
     docs = work / "pages"
     config = base_config()
     names = set(pages.gather(root, docs, config.get("repo_url", "")))
     class_pages.write(found, docs / class_pages.FOLDER)
-    for source in (STYLE, root / LOGO):
-        target = docs / "assets" / source.name
+    for source in (STYLE, root / LOGO, *fonts):
+        # Debian keeps a package's licence in a file of this name.
+        name = "STIXMath-LICENSE.txt" if source.name == "copyright" else source.name
+        target = docs / "assets" / name
         target.parent.mkdir(exist_ok=True)
         shutil.copyfile(source, target)
     config["site_name"] = f"{config['site_name']} {version(root)}"

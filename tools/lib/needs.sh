@@ -276,6 +276,16 @@ need_class_xml() {
   fi
 }
 
+# need_maths_font: sets MATHS_FONT, a font for equations and its licence.
+need_maths_font() {
+  local probes=("file /usr/share/fonts/opentype/stix-word/STIXMath-Regular.otf fonts-stix")
+  if [[ -n $(missing_packages "${probes[@]}") ]]; then
+    install_packages "${probes[@]}"
+  fi
+  # shellcheck disable=SC2034 # used by ./dev docs
+  MATHS_FONT=(/usr/share/fonts/opentype/stix-word/STIXMath-Regular.otf /usr/share/doc/fonts-stix/copyright)
+}
+
 # need_browser: Chromium, and PYTHON with what drives it.
 need_browser() {
   local probes=("file /usr/bin/chromium chromium")

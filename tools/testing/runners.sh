@@ -105,7 +105,7 @@ prepare_tests() {
   [[ ! $wanted =~ \ export_(android|web)\  ]] || bake_demo_tables "${DEMO_SETS[@]}"
   [[ ! $wanted =~ \ (export_web|browser)\  ]] || need_web_template
   [[ ! $wanted =~ \ (export_web|browser)\  ]] || need_browser
-  [[ $wanted != *" docs "* ]] || { need_class_xml && need_browser && need_python docs; }
+  [[ $wanted != *" docs "* ]] || { need_class_xml && need_maths_font && need_browser && need_python docs; }
   [[ ! $wanted =~ \ (stability|stability_changes)\  ]] || need_python stability
   [[ $wanted != *" crosscheck "* ]] || need_python crosscheck
   [[ ! $wanted =~ \ (report|report_smoke|commands)\  ]] || need_python report
