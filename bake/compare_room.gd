@@ -3,21 +3,13 @@ extends RefCounted
 ## The room of `./dev compare --room`: a box about the origin whose walls emit the radiance of
 ## pictures, a place that its light is captured at, and a sphere.
 
-## By wall, in the order of [constant WALLS]: the axes along which its picture's s and t run.
-const S_AXES: PackedVector3Array = [
-	Vector3.FORWARD, Vector3.BACK, Vector3.RIGHT, Vector3.RIGHT, Vector3.RIGHT, Vector3.LEFT
-]
-const T_AXES: PackedVector3Array = [
-	Vector3.DOWN, Vector3.DOWN, Vector3.BACK, Vector3.FORWARD, Vector3.DOWN, Vector3.DOWN
-]
-const NORMALS: PackedVector3Array = [
-	Vector3.RIGHT, Vector3.LEFT, Vector3.UP, Vector3.DOWN, Vector3.BACK, Vector3.FORWARD
-]
-## The keys of the walls in the file.
+## The keys of the walls in the file, in the order of a cube map's faces. A wall's picture lies as
+## on the face.
 const WALLS: PackedStringArray = ["+x", "-x", "+y", "-y", "+z", "-z"]
 ## The layer that the walls are on; cameras that show the sphere leave it out.
 const WALL_LAYER := 1 << 19
 
+const NeutralLight := preload("res://addons/lobelight/runtime/light/neutral_light.gd")
 const _KEYS: PackedStringArray = ["size", "walls", "probe", "sphere"]
 const _SPHERE_KEYS: PackedStringArray = ["centre", "radius"]
 # Metres; single precision holds millimetres up to there.
@@ -66,8 +58,7 @@ func get_reference_options() -> Dictionary:
 
 ## The point of a wall's picture at (u, v) in [0, 1]², from the upper left.
 func get_point(wall: int, uv: Vector2) -> Vector3:
-	var st := 2.0 * uv - Vector2.ONE
-	return 0.5 * size * (NORMALS[wall] + st.x * S_AXES[wall] + st.y * T_AXES[wall])
+	return 0.5 * size * NeutralLight.face_direction(wall, 2.0 * uv - Vector2.ONE)
 
 
 ## The walls as quads that shade nothing and emit exactly their pictures' radiance, in all

@@ -139,8 +139,7 @@ func _save_room(
 		for y in TEXELS:
 			for x in TEXELS:
 				var st := Vector2(2 * x + 1, 2 * y + 1) / TEXELS - Vector2.ONE
-				var d := CompareRoom.NORMALS[wall] + st.x * CompareRoom.S_AXES[wall]
-				d += st.y * CompareRoom.T_AXES[wall]
+				var d := CompareRoom.NeutralLight.face_direction(wall, st)
 				var value: Color = colour.call(0.5 * size * d)
 				pixels.append_array([value.r, value.g, value.b])
 		var file := "%s_%d.exr" % [title, wall]

@@ -15,10 +15,7 @@ bench_rendered() {
       shift
     fi
   done
-  case $renderer in
-    mobile | gl_compatibility | forward_plus) ;;
-    *) die "bench $name: there is no renderer '$renderer'; take mobile, gl_compatibility or forward_plus" ;;
-  esac
+  check_renderer "bench $name" "$renderer"
   need_engine
   need_import
   export LOBELIGHT_CWD=$PWD

@@ -51,15 +51,7 @@ while (($# > 0)); do
   esac
   shift
 done
-[[ -z $json || -d $(dirname -- "$json") ]] || die "android: $json: its folder does not exist"
-[[ ! -e $out || -d $out ]] || die "android: $out is not a folder"
-
-need_engine
-need_python
-need_library
-need_import
-mkdir -p "$out" || die "android: $out: the folder cannot be made"
-bake_demo_tables "${DEMO_SETS[@]}"
+prepare_export android "$out" "$json"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

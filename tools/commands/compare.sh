@@ -88,10 +88,7 @@ while (($# > 0)); do
       ;;
   esac
 done
-case $renderer in
-  mobile | gl_compatibility | forward_plus) ;;
-  *) die "compare: there is no renderer '$renderer'; take mobile, gl_compatibility or forward_plus" ;;
-esac
+check_renderer compare "$renderer"
 
 need_engine
 need_library

@@ -30,10 +30,7 @@ while (($# > 0)); do
     *) die "crosscheck-gltf: there is no option '$1'; take --renderer, --out or --json" ;;
   esac
 done
-case $renderer in
-  mobile | gl_compatibility | forward_plus) ;;
-  *) die "crosscheck-gltf: there is no renderer '$renderer'; take mobile, gl_compatibility or forward_plus" ;;
-esac
+check_renderer crosscheck-gltf "$renderer"
 
 need_engine
 need_library

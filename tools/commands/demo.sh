@@ -68,10 +68,7 @@ while (($# > 0)); do
   esac
   shift
 done
-case $renderer in
-  mobile | gl_compatibility | forward_plus) ;;
-  *) die "demo: there is no renderer '$renderer'; take mobile, gl_compatibility or forward_plus" ;;
-esac
+check_renderer demo "$renderer"
 environments=("${ENVIRONMENTS[@]}")
 if [[ -n $chosen ]]; then
   [[ $chosen =~ ^[1-9]$ && -n ${ENVIRONMENTS[chosen - 1]:-} ]] \

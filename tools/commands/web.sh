@@ -59,16 +59,8 @@ while (($# > 0)); do
   shift
 done
 ((${#isolated[@]} == 0)) || [[ -n $port ]] || die "web: --isolated goes with --serve"
-[[ -z $json || -d $(dirname -- "$json") ]] || die "web: $json: its folder does not exist"
-[[ ! -e $out || -d $out ]] || die "web: $out is not a folder"
-
-need_engine
-need_python
-need_library
-need_import
+prepare_export web "$out" "$json"
 need_web_template
-mkdir -p "$out" || die "web: $out: the folder cannot be made"
-bake_demo_tables "${DEMO_SETS[@]}"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

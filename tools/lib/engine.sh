@@ -70,6 +70,12 @@ need_display() {
   fi
 }
 
+# check_renderer COMMAND RENDERER: one sentence and the end if there is no such renderer.
+check_renderer() {
+  is_one_of "$2" mobile gl_compatibility forward_plus \
+    || die "$1: there is no renderer '$2'; take mobile, gl_compatibility or forward_plus"
+}
+
 # godot_headless ARGS…: the engine in this project without a window or a renderer.
 godot_headless() {
   need_engine

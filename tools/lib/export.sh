@@ -14,6 +14,20 @@ quiet_engine() {
   return "$status"
 }
 
+# prepare_export COMMAND OUT JSON: refuses paths that nothing can be written to, or makes the folder OUT and all that exports
+# of the demo need. JSON may be empty. For those who also source demo_tables.sh.
+prepare_export() {
+  local command=$1 out=$2 json=$3
+  [[ -z $json || -d $(dirname -- "$json") ]] || die "$command: $json: its folder does not exist"
+  [[ ! -e $out || -d $out ]] || die "$command: $out is not a folder"
+  need_engine
+  need_python
+  need_library
+  need_import
+  mkdir -p "$out" || die "$command: $out: the folder cannot be made"
+  bake_demo_tables "${DEMO_SETS[@]}"
+}
+
 # What exports of the repository's project hold while they run: they share files in .godot.
 # shellcheck disable=SC2034 # used by those who source this file
 EXPORT_LOCK=$ROOT/.godot/export.lock

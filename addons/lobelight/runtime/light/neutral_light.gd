@@ -38,14 +38,15 @@ static func _make_face(face: int) -> Image:
 	for y in SIZE:
 		for x in SIZE:
 			var p := (Vector2(x, y) + Vector2(0.5, 0.5)) * (2.0 / SIZE) - Vector2.ONE
-			image.set_pixel(x, y, radiance(_direction(face, p).normalized()))
+			image.set_pixel(x, y, radiance(face_direction(face, p).normalized()))
 	image.generate_mipmaps()
 	image.convert(Image.FORMAT_RGBAH)
 	return image
 
 
-# As lobelight_face_direction in shaders/cube_faces.gdshaderinc.
-static func _direction(face: int, p: Vector2) -> Vector3:
+## The direction of a place on a face of a cube map, from (−1, −1) in the upper left to (1, 1); not
+## of unit length. The same as lobelight_face_direction in shaders/cube_faces.gdshaderinc.
+static func face_direction(face: int, p: Vector2) -> Vector3:
 	match face:
 		0:
 			return Vector3(1.0, -p.y, -p.x)

@@ -6,16 +6,11 @@ extends "../pyramid/face_views.gd"
 ## stay, and drawing again allocates nothing. Everything on the rendering server is freed with the
 ## object.
 
+const NeutralLight := preload("../light/neutral_light.gd")
+
 ## Of the shadows of omni and spot lights, as a [Viewport] has them.
 const _SHADOW_ATLAS := 2048
 const _SHADOW_SUBDIVISIONS: PackedInt32Array = [4, 4, 16, 64]
-# By face, in the order +X −X +Y −Y +Z −Z: a view's rows are the rows of the face.
-const _FORWARD: PackedVector3Array = [
-	Vector3.RIGHT, Vector3.LEFT, Vector3.UP, Vector3.DOWN, Vector3.BACK, Vector3.FORWARD
-]
-const _UP: PackedVector3Array = [
-	Vector3.UP, Vector3.UP, Vector3.FORWARD, Vector3.BACK, Vector3.UP, Vector3.UP
-]
 
 ## Pixels along the side of a view.
 var size: int
@@ -70,7 +65,10 @@ func show(environment: Environment) -> void:
 func place(origin: Vector3, axes: Basis, near: float, far: float, cull_mask: int) -> void:
 	var server := RenderingServer
 	for face in 6:
-		var basis := axes * Basis.looking_at(_FORWARD[face], _UP[face])
+		# A view's rows are the rows of its face.
+		var forward := NeutralLight.face_direction(face, Vector2.ZERO)
+		var up := forward - NeutralLight.face_direction(face, Vector2.DOWN)
+		var basis := axes * Basis.looking_at(forward, up)
 		server.camera_set_transform(_cameras[face], Transform3D(basis, origin))
 		server.camera_set_perspective(_cameras[face], 90.0, near, far)
 		server.camera_set_cull_mask(_cameras[face], cull_mask)
