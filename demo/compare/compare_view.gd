@@ -7,7 +7,6 @@ extends CanvasLayer
 
 const CoverShader := preload("cover.gdshader")
 const Layers := preload("../layers.gd")
-const Methods := preload("../methods.gd")
 
 ## Whether there is a second method.
 var is_comparing := false:

@@ -2,7 +2,6 @@ extends GdUnitTestSuite
 ## The demo under mouse, fingers and keys, and the layout of its controls, by events that are pushed
 ## into a viewport.
 
-const Controls := preload("res://demo/interface/controls.gd")
 const DemoRoot := preload("res://demo/demo.gd")
 const DemoScene := preload("res://demo/demo.tscn")
 const Interface := preload("res://demo/interface/interface.gd")

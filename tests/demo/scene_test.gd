@@ -2,7 +2,6 @@ extends GdUnitTestSuite
 ## The demo's scene: that it holds together, and what it does when it is used.
 
 const Controls := preload("res://demo/interface/controls.gd")
-const DemoObject := preload("res://demo/demo_object.gd")
 const DemoRoot := preload("res://demo/demo.gd")
 const DemoScene := preload("res://demo/demo.tscn")
 const DemoTables := preload("res://demo/demo_tables.gd")

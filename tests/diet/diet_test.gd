@@ -6,7 +6,6 @@ const ProjectFiles := preload("res://addons/lobelight/editor/export/project_file
 const Reach := preload("res://addons/lobelight/editor/export/reach.gd")
 const SetCut := preload("res://addons/lobelight/editor/export/set_cut.gd")
 const SetReach := preload("res://addons/lobelight/editor/export/set_reach.gd")
-const TableChoice := preload("res://addons/lobelight/runtime/material/table_choice.gd")
 const Widths := preload("res://addons/lobelight/runtime/table/widths.gd")
 const SCENES := "res://tests/diet/scenes/"
 const GGX := "res://addons/lobelight/tables/ggx_8.res"

@@ -5,8 +5,8 @@ extends GdUnitTestSuite
 const Binding := preload("res://addons/lobelight/runtime/own_shaders/shader_binding.gd")
 const Kit := preload("support/render_kit.gd")
 const LightRegistry := preload("res://addons/lobelight/runtime/light/light_registry.gd")
-const Oracle := preload("support/material_oracle.gd")
-const SIDE := 48
+const Bench := preload("support/own_shader_bench.gd")
+const SIDE := Bench.SIDE
 # As screens show them.
 const STEP := 1.0 / 255.0
 const SHADER := """
@@ -55,37 +55,36 @@ const CASES := [
 
 var _view: LinearViewport
 var _environment: LobeEnvironment3D
-var _sphere: MeshInstance3D
+var _bench: Bench
 
 
 func before_test() -> void:
-	_view = LinearViewport.new(SIDE)
-	add_child(_view)
-	_environment = LobeEnvironment3D.new()
-	_view.add_child(_environment)
-	_sphere = Kit.make_sphere(null)
-	_view.add_child(_sphere)
+	_bench = Bench.new()
+	add_child(_bench)
+	_view = _bench.view
+	_environment = _bench.environment
 
 
 func after_test() -> void:
-	_view.free()
-	_sphere = null
+	_bench.free()
+	_bench = null
+	_view = null
 	_environment = null
 
 
 func test_surfaces_are_those_of_lobe_materials(
 	roughness: float, anisotropy: float, metallic: float, _test_parameters := CASES
 ) -> void:
-	await _light_up(400.0)
+	await _bench.light_up(400.0)
 	# Without anisotropy LobeMaterial3D has the isotropic lobes.
 	var defines := "#define LOBELIGHT_ISOTROPIC" if anisotropy == 0.0 else ""
 	var own := _own_surface(roughness, anisotropy, metallic, defines)
-	await _compare(own, _lobe_material(roughness, anisotropy, metallic))
+	await _compare(own, Bench.lobe_material(roughness, anisotropy, metallic))
 	assert_str(_shown_code(own)).contains("#define LOBELIGHT_SOURCES")
 
 
 func test_rooms_are_seen_from_where_the_pixel_is() -> void:
-	await _light_up(0.0)
+	await _bench.light_up(0.0)
 	var probe := LobeProbe3D.new()
 	probe.light = LobeLight.make_constant(Color(0.1, 0.9, 0.3), true)
 	# It ends across the sphere.
@@ -94,13 +93,13 @@ func test_rooms_are_seen_from_where_the_pixel_is() -> void:
 	probe.blend_distance = 0.5
 	_view.add_child(probe)
 	var own := _own_surface(0.4, 0.5, 0.5)
-	await _compare(own, _lobe_material(0.4, 0.5, 0.5))
+	await _compare(own, Bench.lobe_material(0.4, 0.5, 0.5))
 	assert_str(_shown_code(own)).contains("#define LOBELIGHT_PLACED")
 	probe.free()
 	# Lights that leave stay for some frames.
 	for frame in 6:
 		await _view.capture()
-	await _compare(own, _lobe_material(0.4, 0.5, 0.5))
+	await _compare(own, Bench.lobe_material(0.4, 0.5, 0.5))
 	assert_str(_shown_code(own)).not_contains("#define LOBELIGHT_PLACED")
 
 
@@ -165,11 +164,11 @@ func test_uniforms_may_have_any_name() -> void:
 
 
 func test_ward_is_ward() -> void:
-	await _light_up(400.0)
+	await _bench.light_up(400.0)
 	var tables: LobeTableSet = load("res://addons/lobelight/tables/ward_8.res")
 	var own := _own_surface(0.25, 0.9, 1.0)
 	LobeLight.bind(own, tables)
-	var ready := _lobe_material(0.25, 0.9, 1.0)
+	var ready := Bench.lobe_material(0.25, 0.9, 1.0)
 	ready.table_set = tables
 	await _compare(own, ready)
 
@@ -275,23 +274,11 @@ func _make_on_threads() -> Array[ShaderMaterial]:
 	return all
 
 
-func _light_up(sun: float) -> void:
-	var direction := Vector3(0.3, 0.5, 0.8).normalized()
-	var light := func(d: Vector3) -> Color:
-		var colour: Color = Oracle.light(d)
-		return colour + Color.WHITE * sun if d.dot(direction) > 0.9995 else colour
-	_environment.panorama = Kit.make_panorama(128, light)
-	await _environment.rebuild()
-	# Sources are found while frames are drawn.
-	for frame in 8:
-		await _view.capture()
-
-
 static func _own_surface(
 	roughness: float, anisotropy: float, metallic: float, defines := ""
 ) -> ShaderMaterial:
 	var own := _own(SHADER % defines)
-	own.set_shader_parameter(&"albedo", Color(0.9, 0.6, 0.3))
+	own.set_shader_parameter(&"albedo", Bench.COLOUR)
 	own.set_shader_parameter(&"metallic", metallic)
 	own.set_shader_parameter(&"roughness", roughness)
 	own.set_shader_parameter(&"anisotropy", anisotropy)
@@ -306,41 +293,20 @@ static func _own(code: String) -> ShaderMaterial:
 	return material
 
 
-static func _lobe_material(roughness: float, anisotropy: float, metallic: float) -> LobeMaterial3D:
-	var material := LobeMaterial3D.new()
-	material.albedo_color = Color(0.9, 0.6, 0.3)
-	material.metallic = metallic
-	material.roughness = roughness
-	material.anisotropy_enabled = anisotropy != 0.0
-	material.anisotropy = anisotropy
-	return material
-
-
-func _compare(own: Material, ready: Material) -> void:
-	var pictures: Array[Image] = []
-	for material: Material in [own, ready]:
-		(_sphere.mesh as PrimitiveMesh).material = material
-		await _view.capture()
-		pictures.append(await _view.capture())
-	var largest := 0.0
-	var mean := 0.0
-	for y in SIDE:
-		for x in SIDE:
-			var one := pictures[0].get_pixel(x, y).linear_to_srgb()
-			var other := pictures[1].get_pixel(x, y).linear_to_srgb()
-			for channel in 3:
-				mean += other[channel] / (3 * SIDE * SIDE)
-				largest = maxf(largest, absf(minf(one[channel], 1.0) - minf(other[channel], 1.0)))
-	assert_float(mean).is_greater(0.05)
-	assert_float(largest).is_less(1.01 * STEP)
-
-
 func _middle_of(material: Material) -> float:
-	(_sphere.mesh as PrimitiveMesh).material = material
-	await _view.capture()
-	var image: Image = await _view.capture()
+	var image := await _bench.capture(material)
 	return image.get_pixel(SIDE / 2, SIDE / 2).r
 
 
 static func _shown_code(material: ShaderMaterial) -> String:
 	return (Binding._find(material)._get_shown() as Shader).code
+
+
+func _compare(own: Material, ready: Material) -> void:
+	_assert_same(await _bench.capture(own), await _bench.capture(ready))
+
+
+func _assert_same(picture: Image, expected: Image) -> void:
+	var found := Bench.compare(picture, expected)
+	assert_float(found["mean"]).is_greater(0.05)
+	assert_float(found["largest"]).is_less(1.01 * STEP)

@@ -3,7 +3,6 @@ extends GdUnitTestSuite
 
 const Converter := preload("res://addons/lobelight/editor/conversion/material_converter.gd")
 const Plan := preload("res://addons/lobelight/editor/conversion/conversion_plan.gd")
-const Slots := preload("res://addons/lobelight/editor/conversion/material_slots.gd")
 
 const FOLDER := "user://conversion_plan"
 

@@ -2,7 +2,6 @@
 extends GdUnitTestSuite
 ## What the inspector draws of a baked table.
 
-const ErrorMap := preload("res://addons/lobelight/editor/plots/error_map.gd")
 const Kit := preload("res://tests/editor/editor_kit.gd")
 const LobeDisc := preload("res://addons/lobelight/editor/plots/lobe_disc.gd")
 const Mixture := preload("res://addons/lobelight/editor/plots/mixture.gd")

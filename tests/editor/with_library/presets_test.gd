@@ -2,7 +2,6 @@
 extends GdUnitTestSuite
 ## Looks for materials in the running editor: what they set, in one step, and what they leave.
 
-const FormRow := preload("res://addons/lobelight/editor/bake/form_row.gd")
 const Kit := preload("res://tests/editor/editor_kit.gd")
 const MaterialPresets := preload("res://addons/lobelight/editor/presets/material_presets.gd")
 const PresetChoice := preload("res://addons/lobelight/editor/presets/preset_choice.gd")
