@@ -12,6 +12,9 @@ from pathlib import Path
 from dependencies import CODE, House
 
 ENTRIES = "tools/house/entries.txt"
+# What tells of files without using them.
+PROSE = (".md", ".xml")
+LISTS = "tools/house/"
 # As in "$ROOT/tools/x.sh", res://addons/y.gd, ../z.gdshaderinc, build.py, demo/%s.tscn.
 PATH = re.compile(r"(?:[\w.+-]+/)*[\w.+-]*\w\.\w+")
 GLOB = re.compile(r"(?:[\w.+-]+/)*[\w.+-]*\*[\w.*+-]*\.\w+")
@@ -71,9 +74,9 @@ def find_references(house: House) -> set[str]:
     for path in house.files:
         by_name.setdefault(os.path.basename(path), []).append(path)
     for start, code in house.codes.items():
-        for name in set(PATH.findall(code)):
+        for name in set(PATH.findall(code)) if not start.startswith(LISTS) else ():
             for path in _named(name, start, by_name, house):
-                if path != start and (not path.endswith(CODE) or not start.endswith(".md")):
+                if path != start and (not path.endswith(CODE) or not start.endswith(PROSE)):
                     found.add(path)
         if start.endswith((".cmake", "CMakeLists.txt")):
             for match in GLOB.finditer(code):
@@ -113,7 +116,7 @@ def find_uncalled(house: House, entries: Entries) -> list[str]:
     """Functions whose name no code has but where they are defined, as `FILE:LINE NAME`."""
     count: dict[str, int] = {}
     for path, code in house.codes.items():
-        if not path.endswith(".md"):
+        if not path.endswith(PROSE) and not path.startswith(LISTS + "entries"):
             for name in NAME.findall(code):
                 count[name] = count.get(name, 0) + 1
     uncalled = []
