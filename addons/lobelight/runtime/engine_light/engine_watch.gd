@@ -3,8 +3,8 @@ extends RefCounted
 ## Watches what the engine has in some worlds: global illumination, and effects of the screen that
 ## darken diffuse light.
 ##
-## Nodes that come, and environments that a world is given, say so. The switches of environments and
-## the data of nodes change without a word: these few are looked at twice a second.
+## New nodes, and other environments of a world, are signalled. The switches of environments and the
+## data of nodes change without a signal, so these are looked at twice a second.
 
 const DiffuseSource := preload("../light/diffuse_source.gd")
 
@@ -23,7 +23,7 @@ var has_global_illumination := false
 var has_screen_occlusion := false
 
 var _on_change: Callable
-# Ids: a world that is held would be taken for one that is still shown.
+# Worlds by their ids: a reference would keep a world alive, which would then count as shown.
 var _worlds: Array[int] = []
 # Those of them in which diffuse light comes from probes of the addon, if not from the engine.
 var _with_probes: Array[int] = []

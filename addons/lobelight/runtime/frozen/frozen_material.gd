@@ -1,7 +1,8 @@
 @tool
 extends ShaderMaterial
-## A [LobeMaterial3D] that nothing changes, as exports have it: its shader is written out, its
-## parameters are numbers and textures. What makes both of a material's properties stays behind.
+## A [LobeMaterial3D] that nothing changes, as exports store it: the text of its shader, and its
+## parameters as numbers and textures. The scripts that make these from a material's properties are
+## then not exported.
 
 const LightRegistry := preload("../light/light_registry.gd")
 

@@ -31,7 +31,7 @@ static func draw() -> bool:
 		var rid := viewport.get_viewport_rid()
 		modes[rid] = server.viewport_get_update_mode(rid)
 		server.viewport_set_update_mode(rid, RenderingServer.VIEWPORT_UPDATE_DISABLED)
-	# Who waits for a frame waits for one that shows something.
+	# Nobody is told: who waits for a frame waits for one that is shown.
 	server.set_block_signals(true)
 	server.force_draw(false)
 	server.set_block_signals(false)

@@ -8,8 +8,8 @@ const WidthsTexture := preload("../table/widths_texture.gd")
 const _SHADER := preload("mix_tables.gdshader")
 # What OpenGL ES 3.0 guarantees (table 6.28).
 const _MOST_TEXELS := 2048
-# Viewports are drawn in the order of how deep they are among those of the tree: as deep as this,
-# none that shows a material comes before.
+# Viewports are drawn in the order of their depth in the tree. At this depth the page is drawn
+# before every viewport that shows a material.
 const _DEPTH := 8
 
 ## All tables of the set.

@@ -3,10 +3,10 @@ extends RefCounted
 ## Keeps a [ShaderMaterial] whose shader includes lobelight.gdshaderinc lit, see
 ## [method LobeLight.bind].
 ##
-## Lights ask for other variants of the shader; they are made of the material's own code, with
-## #defines before it, and shown in its place. The material does not know: it keeps its shader.
-## A binding lives as long as the connection to its material, whose signal holds it, and knows the
-## material by a weak reference: it keeps nothing alive.
+## Lights need other variants of the shader. A variant is the material's own code with #defines
+## before it; it is set on the rendering server, and the material keeps its own shader. A binding
+## lives as long as its connection to a signal of the material, and refers to the material weakly,
+## so it keeps nothing alive.
 
 const LightRegistry := preload("../light/light_registry.gd")
 const LineChoice := preload("../material/line_choice.gd")
@@ -145,7 +145,7 @@ func _update() -> void:
 		_show_as_written(material)
 		return
 	var defines := _find_defines()
-	# The one before lives until there is another: the same code is compiled once.
+	# The old variant is kept until there is another one, so that the same code is compiled once.
 	var variant: Shader = null
 	if _NODES in _shader.code or not defines.is_empty():
 		variant = ShaderVariants.fetch(_get_code(defines))
@@ -153,7 +153,7 @@ func _update() -> void:
 	var parameters := _list_parameters(_get_shown())
 	_give_lobes(parameters[_TABLE] if parameters.has(_TABLE) else "")
 	RenderingServer.material_set_shader(_rid, _get_shown().get_rid())
-	# Files of materials have what their shaders' parameters were, the light's too.
+	# Saved materials contain values of all parameters of their shaders, the light's as well.
 	LightRegistry.apply_again(_rid)
 
 
@@ -210,7 +210,7 @@ func _get_tables() -> LobeTableSet:
 	return _tables
 
 
-# What the variant has and the material's own code does not.
+# The lines that the variant has before the material's own code.
 func _find_defines() -> PackedStringArray:
 	var defines := LightRegistry.get_defines(_rid)
 	var tables := _get_tables()

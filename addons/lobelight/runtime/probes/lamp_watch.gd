@@ -26,7 +26,7 @@ const _PROPERTIES: Array[StringName] = [
 
 # What is called when a lamp that reaches a probe's box has changed.
 static var _listeners: Dictionary[ProbeView, Callable] = {}
-# By its instance id, what was seen of each lamp: its world, its place, its reach, its properties.
+# By instance id, what was last seen of each lamp: its world, place, reach and properties.
 static var _lamps: Dictionary[int, Array] = {}
 static var _tree: SceneTree
 

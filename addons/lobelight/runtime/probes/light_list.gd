@@ -27,11 +27,11 @@ const WIDTH := 16
 ## What is added to a world's number for what captures of probes see.
 const CAPTURED := 8
 const _TEXELS := 8
-# The box of what is seen alike from everywhere, half its size in metres.
+# Half the size of the box of lights without one, in metres.
 const _EVERYWHERE := 1e9
-# What rounding may add to the square of a distance.
+# A margin for rounding in squares of distances.
 const _MARGIN := 1.0001
-# The most that a weight falls by in a metre.
+# The steepest edge of a box: how much a weight may fall in a metre.
 const _SHARPEST_EDGE := 1e6
 
 var texture := ImageTexture.new()
@@ -71,7 +71,7 @@ func begin_captured() -> void:
 ## The lights that follow are those of worlds that have none.
 func begin_unlit() -> void:
 	_begin([WorldCameras.UNLIT])
-	# The editor draws its thumbnails with cameras that nobody tells.
+	# The editor draws thumbnails with cameras whose masks are not set.
 	if Engine.is_editor_hint():
 		_begin([WIDTH - 1])
 
@@ -105,7 +105,7 @@ func add(
 		half = 0.5 * light.box_size
 		to_middle = -light.box_origin
 		moved = -(to_light * light.box_middle)
-		# What weighs as much everywhere has no edge.
+		# A weight that is the same everywhere has no edge.
 		if is_finite(bias):
 			slope = minf(1.0 / maxf(light.blend_distance, 1e-9), _SHARPEST_EDGE)
 			middle = light.box_middle

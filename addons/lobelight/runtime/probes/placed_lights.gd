@@ -40,7 +40,7 @@ static func make_list(light: LobeLight) -> Texture2D:
 	var list := LightList.new()
 	list.begin()
 	list.begin_world()
-	# It does not end outside the box.
+	# This light has no edge: outside the box it goes on.
 	list.add(light, LightList.ENVIRONMENT, 0.0, INF, true)
 	list.end()
 	return list.texture
@@ -77,7 +77,7 @@ func show(worlds: Dictionary[RID, LightWorld], neutral: LobeLight) -> void:
 			others.append(light)
 		faded.append_array(world.faded)
 		locals.merge(world.probes)
-	# Where there are too many, it is those that go anyway which are left out.
+	# If there are too many, those that are fading out are left out.
 	for light in faded:
 		if light != _primary and light not in others:
 			others.append(light)
@@ -90,7 +90,7 @@ func show(worlds: Dictionary[RID, LightWorld], neutral: LobeLight) -> void:
 			_with_sources.append(light)
 	_cameras.tell(lit)
 	mark_moved()
-	# What is drawn before the next frame begins would show the list as it was.
+	# Otherwise what is drawn before the next frame would show the old list.
 	write()
 
 
@@ -111,7 +111,7 @@ func write() -> void:
 		if world != null and not world.probes.values().all(_store.has):
 			_list.begin_captured()
 			_write_world(world, true)
-	# Where nothing gives light, the first world's does, but for its rooms.
+	# A world without lights shows the first world's environment, without its probes.
 	_list.begin_unlit()
 	var sources := _with_sources.find(_primary) + 1 if _primary.sources != null else 0
 	_list.add(_primary, LightList.ENVIRONMENT, 0.0, 1.0, true, _primary.energy, sources)
@@ -181,8 +181,9 @@ func _on_frame_pre_draw() -> void:
 	write()
 
 
-# As cameras see it, or the captures of probes: for these, what has no light yet is dark, as a
-# first capture in the light of the sky would leave some of that in a closed room.
+# The lights as cameras see them, or as captures of probes see them. In captures, rooms without
+# light yet are dark: if the first capture were lit by the sky, some of that light would stay in
+# closed rooms.
 func _write_world(world: LightWorld, captured: bool) -> void:
 	var probes: Array[LobeLight] = []
 	if world != null:
@@ -197,7 +198,7 @@ func _write_world(world: LightWorld, captured: bool) -> void:
 			_list.add(probes[i], _store.get_layer(probes[i]), shift, 1.0, starts)
 		else:
 			_list.add(probes[i], LightList.ENVIRONMENT, 0.0, 1.0, starts, 0.0)
-	# Each of what fades takes its share of what is left.
+	# Each light that fades takes its share of what the ones before leave.
 	var lights: Array[LobeLight] = [_neutral]
 	if world != null and world.get_light() != null:
 		lights[0] = world.get_light()

@@ -10,7 +10,8 @@ const ProbeCamera := preload("probe_camera.gd")
 const CUBES := 4
 # Seconds between looks at where the camera is, while there are more lights than cube maps.
 const _INTERVAL := 0.1
-# How much nearer a light has to be than one that has a place, so that places do not flicker.
+# How much closer a light must be to replace one that has a place, so that places do not change to
+# and fro.
 const _ADVANTAGE := 0.9
 
 var _cubes: Dictionary[LobeLight, Cubemap] = {}

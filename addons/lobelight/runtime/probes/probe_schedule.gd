@@ -29,8 +29,8 @@ static func request(view: ProbeView, whole: bool, urgent: bool) -> void:
 	view.is_urgent = view.is_urgent or urgent
 	view.is_whole = whole or view.is_urgent
 	if view == _current and urgent:
-		# Otherwise what has been drawn of it is used, so that a probe which changes in every frame
-		# is captured nonetheless.
+		# Otherwise the views that have been drawn are kept, so that a probe that changes in every
+		# frame is captured, too.
 		_current = null
 		_drawn.clear()
 	if view not in _waiting:
@@ -126,7 +126,7 @@ static func _on_frame_post_draw() -> void:
 	var received := true
 	for slice in _drawn:
 		received = _capture.receive(slice) and received
-	# What a slice has that nothing is taken from does not count.
+	# Slices from which nothing is read back do not count.
 	var is_last := _slice >= _capture.get_slices()
 	_drawn.clear()
 	if not is_last:

@@ -2,10 +2,10 @@
 extends RefCounted
 ## Tells shaders which world they draw: four bits of the cull masks of its cameras.
 ##
-## CAMERA_VISIBLE_LAYERS is all that a shader sees of the world it is drawn in. Layers end at 20,
-## and the editor's own begin at 24. The masks are changed on the rendering server only, so that
-## [member Camera3D.cull_mask] stays what it is; and as nodes hand theirs on when they like, it is
-## done in each frame while there are cameras in several worlds.
+## CAMERA_VISIBLE_LAYERS is all that a shader can know of its world. Layers of nodes end at 20, and
+## the editor's own begin at 24. The masks are changed on the rendering server only, so [member
+## Camera3D.cull_mask] stays as it is. Nodes may set theirs again at any time, so the masks are
+## written in each frame while there are cameras in several worlds.
 
 # Of the first layer that is no layer of nodes.
 const _SHIFT := 20
@@ -18,8 +18,8 @@ var _tree: SceneTree
 var _nodes: Array[Camera3D] = []
 
 
-## These worlds, by their scenarios, are to be told from one another; the first one is what cameras
-## show that nobody told.
+## Sets the worlds, by their scenarios, that are told apart. Cameras whose masks are not set show
+## the first one.
 func tell(worlds: Array[RID]) -> void:
 	_worlds = worlds
 	if not worlds.is_empty() and _tree == null:
@@ -67,7 +67,7 @@ func _on_node_added(node: Node) -> void:
 		return
 	if camera not in _nodes:
 		_nodes.append(camera)
-	# In which world, is known then.
+	# Its world is known by then.
 	_follow(true)
 
 

@@ -2,9 +2,9 @@
 extends "../../pyramid/light_search.gd"
 ## Looks for sources in a panorama or in six views, and takes them out of level 0, on the GPU.
 ##
-## What a source is says gdextension/src/image/compact_sources.h, which looks for them where light
-## is baked. Here, each seed is looked at in the map as it is: what is left around a source is no
-## other one, and of two within 5 degrees the brighter one is found.
+## gdextension/src/image/compact_sources.h defines what a source is, and finds them in baked light.
+## The search here looks at each seed in the unchanged map: the rest around a source is not found as
+## another source, and of two sources within 5 degrees only the brighter one is found.
 
 const CanvasPass := preload("../../pyramid/canvas_pass.gd")
 const HandedSources := preload("../../pyramid/handed_sources.gd")
@@ -90,7 +90,7 @@ static func in_views(
 
 ## Has level 0 drawn without the sources, or with them.
 func take_out(takes: bool) -> void:
-	# Asked before each update; a material that is given a shader anew is made anew.
+	# Called before each update. Setting the same shader again would rebuild the material.
 	if takes == takes_out:
 		return
 	takes_out = takes
