@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What the commands do with bad input: one clear line on stderr, a non-zero exit, and nothing is written.
+# What the commands do with bad input: one clear line on stderr, a non-zero exit, and nothing is written:
+# errors_test.sh [TEXT], which are then only those tests that have TEXT in their name.
 set -uo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -8,11 +9,13 @@ trap 'rm -rf "$work"' EXIT
 environment=$root/tests/data/forest.exr
 passed=0
 failed=0
+only=${1:-}
 
 # refuses NAME EXPECTED_TEXT COMMAND…: runs ./dev COMMAND in an empty folder and checks how it ends.
 refuses() {
   local name=$1 text=$2 status=0 problem=""
   shift 2
+  [[ $name == *"$only"* ]] || return 0
   rm -rf "$work/run"
   mkdir "$work/run"
   (cd "$work/run" && timeout 120 "$root/dev" "$@") >"$work/stdout" 2>"$work/stderr" </dev/null || status=$?
@@ -158,6 +161,19 @@ refuses "demo, an unknown option" "--colour" demo --colour red
 refuses "demo, an environment that does not exist" "--env" demo --env 17
 refuses "demo, an unknown renderer" "vulkan9" demo --renderer vulkan9
 refuses "test, an unknown group" "no-such-group" test no-such-group
+refuses "test, a suite that is not there" "no suite 'no_such' in tests/runtime" test runtime:no_such
+refuses "test, a suite of a group without" "a suite of 'lint'" test lint:arrows
+refuses "test, a test that is not there" "no test 'test_no_such'" test runtime:lobe_table:no_such
+refuses "test, no suite" "names no suite" test runtime:
+refuses "test, a suite and a group" "not both" test lint runtime:lobe_table
+refuses "test, an engine without a version" "name one version" test --engine
+refuses "engine, a version that is none" "must be such as 4.6" engine newest
+refuses "build-library, no vcpkg" "--vcpkg is missing" build-library
+refuses "build-library, a folder that is not vcpkg" "is no clone of vcpkg" build-library --vcpkg .
+refuses "build-library, an unknown option" "--colour" build-library --colour red
+refuses "smoke, an unknown option" "--colour" smoke --colour red
+refuses "smoke, a package that is not there" "absent.zip: there is no such file" smoke --package absent.zip
+refuses "smoke, JSON in a missing folder" "its folder does not exist" smoke --json missing/s.json
 refuses "test, two groups as one" "lint harness" test "lint harness"
 refuses "test, an unknown sanitizer" "must be one of address undefined thread" test --sanitize nonsense
 refuses "test, no sanitizer" "must be one of address undefined thread" test --sanitize

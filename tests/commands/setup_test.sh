@@ -125,6 +125,27 @@ expect "a program of the first suite" suite_with testing testing unstable
 expect "a suite that has moved on is passed over" suite_with unstable later unstable
 expect "no suite has the version: a sentence" no_suite later gone
 
+# engine VERSION: a program that reports it.
+engine() {
+  printf '#!/bin/sh\necho %s\n' "$1" >"$work/bin/engine-$1"
+  chmod +x "$work/bin/engine-$1"
+  echo "$work/bin/engine-$1"
+}
+# takes_engine VERSION: as GODOT, which is set by hand.
+takes_engine() {
+  GODOT=$(engine "$1") LOBELIGHT_ENGINE_READY="" LOBELIGHT_CACHE=$work/cache \
+    bash -c 'source "$1/tools/lib/common.sh"; need_engine' - "$ROOT"
+}
+refuses_engine() {
+  local said
+  said=$(takes_engine "$1" 2>&1) && return 1
+  grep -F "reports version '$1', but this project needs Godot 4.6 or later" <<<"$said"
+}
+expect "an engine of the wanted version" takes_engine 4.6.5.stable
+expect "a later one, where it is set by hand" takes_engine 4.10.beta1
+expect "an engine that is too old is refused" refuses_engine 4.5.1.stable
+expect "one of the next generation is refused" refuses_engine 5.0.stable
+
 # configure FOLDER OPTION…: CMake alone, without ./dev.
 configure() {
   local build=$1

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# checks the form of C++, GDScript and shell code, and who knows whom in the run time ([--fix] [--json FILE])
+# checks the form of C++, GDScript and shell code, who knows whom in the run time, and GitHub's workflows and forms ([--fix] [--json FILE])
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 usage() {
@@ -28,7 +28,8 @@ while (($# > 0)); do
 done
 
 need_packages
-need_python ""
+need_python workflows
+need_actionlint
 bin=$(dirname "$PYTHON")
 cd "$ROOT"
 
@@ -84,10 +85,26 @@ clang_format() {
   }
 }
 
+# What GitHub reads: workflows, issue forms and what keeps dependencies up to date.
+actionlint() {
+  "$ACTIONLINT" -no-color -shellcheck shellcheck "${workflows[@]}"
+}
+github_forms() {
+  local schema="$bin/check-jsonschema --no-cache --quiet --builtin-schema" status=0
+  $schema vendor.github-issue-forms "${forms[@]}" || status=1
+  $schema vendor.github-issue-config .github/ISSUE_TEMPLATE/config.yml || status=1
+  $schema vendor.dependabot .github/dependabot.yml || status=1
+  return "$status"
+}
+mapfile -t workflows < <(files '*.yml' | grep '^./.github/workflows/')
+mapfile -t forms < <(files '*.yml' | grep '^./.github/ISSUE_TEMPLATE/' | grep -v '/config.yml$')
+
 check clang-format "${#cpp[@]}" clang_format
 check gdformat "${#gdscript[@]}" "$bin/gdformat" --line-length 100 --check "${gdscript[@]}"
 check gdlint "${#gdscript[@]}" "$bin/gdlint" "${gdscript[@]}"
 check shellcheck "${#shell[@]}" shellcheck "${shell[@]}"
+check actionlint "${#workflows[@]}" actionlint
+check github_forms "${#forms[@]}" github_forms
 mapfile -t runtime < <(files '*.gd' | grep '^./addons/lobelight/runtime/')
 check arrows "${#runtime[@]}" "$PYTHON" tools/lint/arrows.py
 check house "$((${#cpp[@]} + ${#gdscript[@]} + ${#shell[@]}))" "$PYTHON" tools/house/house.py --quiet

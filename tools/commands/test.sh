@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands docs export cost crosscheck accuracy renderers stereo web render); [--json FILE] [--sanitize KIND]
+# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands docs export cost crosscheck accuracy renderers stereo web render), or one suite (GROUP:SUITE[:TEST]); [--engine VERSION] [--json FILE] [--sanitize KIND]
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/gdunit.sh
 source "$ROOT/tools/lib/gdunit.sh"
@@ -13,6 +13,8 @@ source "$ROOT/tools/testing/runners.sh"
 source "$ROOT/tools/testing/rendered.sh"
 # shellcheck source=tools/testing/lanes.sh
 source "$ROOT/tools/testing/lanes.sh"
+# shellcheck source=tools/testing/single.sh
+source "$ROOT/tools/testing/single.sh"
 # shellcheck source=tools/testing/sanitizers.sh
 source "$ROOT/tools/testing/sanitizers.sh"
 
@@ -20,12 +22,17 @@ GROUPS_OF_TESTS=(lint harness standin cpp stability native runtime editor demo c
 
 usage() {
   cat <<USAGE
-usage: ./dev test [GROUP…] [--json FILE]
+usage: ./dev test [GROUP…] [--engine VERSION] [--json FILE]
+       ./dev test GROUP:SUITE[:TEST]… [--json FILE]
        ./dev test --sanitize address|undefined|thread [cpp] [native] [--json FILE]
 
 Groups, all of them if none is named: ${GROUPS_OF_TESTS[*]}
 What they need is made first, once. Then they run side by side, as many at once as there are cores, up to 4; each one's output
 is shown when it has ended, and says how long it took. LOBELIGHT_JOBS=1 runs one after another.
+GROUP:SUITE[:TEST] runs one suite or one test, and makes only what that needs: runtime:lobe_table, cpp:fit_em,
+render:seam:test_no_seam, commands:errors:bake. The groups with such suites are ${SINGLE_GROUPS[*]}.
+A rendered suite is then drawn in Compatibility, unless LOBELIGHT_RENDERERS names others.
+--engine VERSION takes an official build of Godot, 4.6 or later, as ./dev engine downloads it.
 With --sanitize the C++ tests run under one of g++'s sanitizers; with address also the native suites, the library in
 the engine. They are built in build/cmake-KIND.
 The last line is "N passed, N failed". Logs and reports are kept in build/test.
@@ -34,6 +41,7 @@ USAGE
 }
 
 groups=()
+singles=()
 total_options=()
 sanitizer=""
 while (($# > 0)); do
@@ -41,6 +49,11 @@ while (($# > 0)); do
     -h | --help)
       usage
       exit 0
+      ;;
+    --engine)
+      GODOT=$(bash "$ROOT/tools/commands/engine.sh" "${2:-}") || exit
+      export GODOT
+      shift
       ;;
     --json)
       [[ -n ${2:-} ]] || die "test: --json needs a file name"
@@ -54,6 +67,10 @@ while (($# > 0)); do
       sanitizer=$2
       shift
       ;;
+    *:*)
+      (find_single "$1") || exit
+      singles+=("$1")
+      ;;
     *)
       is_one_of "$1" "${GROUPS_OF_TESTS[@]}" \
         || die "test: there is no group '$1'; the groups are ${GROUPS_OF_TESTS[*]}"
@@ -62,7 +79,9 @@ while (($# > 0)); do
   esac
   shift
 done
+((${#singles[@]} == 0 || ${#groups[@]} == 0)) || die "test: name groups or single suites, not both"
 if [[ -n $sanitizer ]]; then
+  ((${#singles[@]} == 0)) || die "test: --sanitize runs groups, not '${singles[0]}'"
   suites=(cpp)
   [[ $sanitizer != address ]] || suites+=(native)
   for group in "${groups[@]}"; do
@@ -86,6 +105,10 @@ if [[ -n $sanitizer ]]; then
   prepare_sanitized "${groups[@]}"
   for group in "${groups[@]}"; do
     "sanitize_$group" "$sanitizer"
+  done
+elif ((${#singles[@]} > 0)); then
+  for single in "${singles[@]}"; do
+    run_single "$single"
   done
 else
   mapfile -t runners < <(for group in "${groups[@]}"; do jobs_of "$group"; done | awk '!seen[$0]++')

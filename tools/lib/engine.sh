@@ -11,15 +11,15 @@ godot_version() {
   "$1" --version 2>/dev/null </dev/null | tail -n 1 || true
 }
 
-# need_engine: sets and exports GODOT. Order: $GODOT, then `godot` on PATH if it is the wanted version, then Debian's
+# need_engine: sets and exports GODOT. Order: $GODOT, which may be later than the wanted version, then `godot` on PATH if it is the wanted version, then Debian's
 # package unpacked in the cache. An engine that was looked at once is not asked again until its file changes.
 need_engine() {
   [[ -z ${GODOT:-} || ${LOBELIGHT_ENGINE_READY:-} != "$GODOT" ]] || return 0
   local found=""
   if [[ -n ${GODOT:-} ]]; then
     found=$(command -v -- "$GODOT") || die "GODOT=$GODOT is not a program that can be run"
-    godot_is_wanted "$found" \
-      || die "GODOT=$GODOT reports version '$(godot_version "$found")', but this project needs Godot $GODOT_WANTED"
+    godot_is_wanted "$found" later \
+      || die "GODOT=$GODOT reports version '$(godot_version "$found")', but this project needs Godot $GODOT_WANTED or later"
   elif found=$(command -v godot) && godot_is_wanted "$found"; then
     :
   else
@@ -45,12 +45,18 @@ program_identity() {
   stat -L -c '%n %i %s %Y' -- "$1" | sha256sum | cut -c 1-16
 }
 
-# godot_is_wanted PROGRAM: remembers the answer under the file's identity, since asking an engine takes a while.
+# godot_is_wanted PROGRAM [later]: whether it is the wanted version or, with "later", that or a later 4.x. Remembers the answer
+# under the file's identity, since asking an engine takes a while.
 godot_is_wanted() {
-  local stamp
-  stamp=$CACHE/engine-checks/$(program_identity "$1")
+  local stamp version
+  stamp=$CACHE/engine-checks/$(program_identity "$1")${2:+-$2}
   if [[ ! -f $stamp ]]; then
-    [[ $(godot_version "$1") == "$GODOT_WANTED".* ]] || return 1
+    version=$(godot_version "$1")
+    if [[ -n ${2:-} ]]; then
+      [[ $version =~ ^4\.([0-9]+)\. ]] && ((BASH_REMATCH[1] >= ${GODOT_WANTED#4.})) || return 1
+    else
+      [[ $version == "$GODOT_WANTED".* ]] || return 1
+    fi
     write_stamp "$stamp" "$1"
   fi
 }

@@ -78,6 +78,18 @@ need_python() {
   fi
 }
 
+# need_actionlint: sets ACTIONLINT, which checks GitHub's workflows.
+need_actionlint() {
+  local folder
+  folder=$CACHE/actionlint/$(content_hash "$ROOT/tools/setup/actionlint.sh" "$ROOT/tools/setup/actionlint.txt" \
+    "$ROOT/tools/lint/actionlint/go.mod" "$ROOT/tools/lint/actionlint/go.sum")
+  if [[ ! -f $folder/complete ]]; then
+    locked "$CACHE/lock/actionlint" bash "$ROOT/tools/setup/actionlint.sh" "$folder"
+  fi
+  # shellcheck disable=SC2034 # used by those who call this
+  ACTIONLINT=$folder/actionlint
+}
+
 # need_openexr: sets OPENEXR_DIR, where static OpenEXR and Imath are installed.
 need_openexr() {
   OPENEXR_DIR=$CACHE/deps/openexr-$(content_hash "$ROOT/tools/setup/openexr.sh" "$ROOT/tools/setup/openexr.txt")
@@ -196,6 +208,16 @@ need_native_tests() {
   need_library
 }
 
+# need_core_tests: only the C++ tests' program, for a single suite of theirs.
+need_core_tests() {
+  need_packages
+  need_openexr
+  need_interface
+  if ! stamp_is "$ROOT/build/core-tests-key" "$(library_key)"; then
+    locked "$ROOT/build/lock" bash "$ROOT/tools/setup/library.sh" lobelight_tests
+  fi
+}
+
 # import_key: what the import depends on: every file that the engine looks at, and the engine itself.
 import_key() {
   local entries=("$ROOT"/*)
@@ -207,6 +229,33 @@ import_key() {
     esac
   done
   echo "$(fingerprint "${kept[@]}" "$ROOT/tools/lib/check_scripts.gd") $GODOT"
+}
+
+# resource_key: what the import of resources depends on: of scripts and shaders only that they are there, and the lines by
+# which a script becomes a class.
+resource_key() {
+  local kept=() entry
+  for entry in "$ROOT"/*; do
+    case ${entry##*/} in
+      build | gdextension | docs | tools | reports) ;;
+      *) kept+=("$entry") ;;
+    esac
+  done
+  {
+    find "${kept[@]}" -name build -prune -o -type f \( -name '*.gd' -o -name '*.gdshader' -o -name '*.gdshaderinc' \) -print \
+      -o -type f -printf '%p %s %T@\n' | LC_ALL=C sort
+    grep -rhE --include='*.gd' '^(class_name|extends|@tool|@icon|@abstract)' "${kept[@]}" | LC_ALL=C sort
+    echo "$GODOT"
+  } | sha256sum | cut -c 1-16
+}
+
+# need_resources: the project's resources imported. Scripts are not looked at.
+need_resources() {
+  need_engine
+  need_library
+  if ! stamp_is "$ROOT/.godot/lobelight-resource-key" "$(resource_key)"; then
+    locked "$ROOT/build/lock" bash "$ROOT/tools/setup/import.sh" --resources
+  fi
 }
 
 # need_import: the project's resources imported and every script of it free of errors.

@@ -229,6 +229,8 @@ run_docs() {
 run_setup() {
   run_logged setup in_time bash "$ROOT/tests/commands/setup_test.sh"
   judge setup
+  run_logged engine in_time bash "$ROOT/tests/commands/engine_test.sh"
+  judge engine
 }
 
 # What ./dev report and ./dev accuracy make of measurements.
