@@ -90,10 +90,12 @@ actionlint() {
   "$ACTIONLINT" -no-color -shellcheck shellcheck "${workflows[@]}"
 }
 github_forms() {
-  local schema="$bin/check-jsonschema --no-cache --quiet --builtin-schema" status=0
+  local schema="$bin/check-jsonschema --no-cache --builtin-schema" status=0
   $schema vendor.github-issue-forms "${forms[@]}" || status=1
   $schema vendor.github-issue-config .github/ISSUE_TEMPLATE/config.yml || status=1
   $schema vendor.dependabot .github/dependabot.yml || status=1
+  # A job without one may hang for six hours.
+  $schema custom.github-workflows-require-timeout "${workflows[@]}" || status=1
   return "$status"
 }
 mapfile -t workflows < <(files '*.yml' | grep '^./.github/workflows/')

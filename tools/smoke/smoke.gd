@@ -1,10 +1,11 @@
 extends SceneTree
-## Loads the editor's library and bakes a small table: [code]--script res://smoke.gd -- NAME[/code] in a project with the
-## addon. The last line says how much of it held; smoke.json, beside it, too.
+## Loads the editor's library and bakes a small table, in a project with the addon:
+## [code]--script res://smoke.gd -- NAME[/code]. The last line says how much of it held; smoke.json,
+## beside it, too.
 
 const CLASSES: PackedStringArray = ["LobeBaker", "LobeImageFile", "LobeReference", "LobeTask"]
 const RECIPE := {"brdf": "ward_bounded", "alpha": [0.1, 0.2], "lobes": 4, "views": [6, 3]}
-## A table's lobes hold as much light as the BRDF reflects, as ./dev stability holds for all of them.
+## The share by which the light of the lobes may differ from what the BRDF reflects.
 const MOST_ERROR := 0.005
 
 var _checks: Dictionary[String, bool] = {}
@@ -33,7 +34,9 @@ func _bake(baker: RefCounted) -> void:
 	var albedo: Variant = baker.call("directional_albedo", "ward_bounded", Vector2(0.1, 0.2), view)
 	var error := absf(loaded.directional_albedo(view) - float(albedo)) / float(albedo)
 	_check("its lobes hold the light of the BRDF", error < MOST_ERROR)
-	_check("a bad recipe is refused", (baker.call("bake", {"brdf": "none"}) as Dictionary).has("error"))
+	_check(
+		"a bad recipe is refused", (baker.call("bake", {"brdf": "none"}) as Dictionary).has("error")
+	)
 
 
 func _check(what: String, holds: bool) -> void:
