@@ -166,7 +166,7 @@ refuses "test, a suite of a group without" "a suite of 'lint'" test lint:arrows
 refuses "test, a test that is not there" "no test 'test_no_such'" test runtime:lobe_table:no_such
 refuses "test, no suite" "names no suite" test runtime:
 refuses "test, a suite and a group" "not both" test lint runtime:lobe_table
-refuses "test, an engine without a version" "name one version" test --engine
+refuses "test, an engine without a version" "must be such as 4.6" test --engine
 refuses "engine, a version that is none" "must be such as 4.6" engine newest
 refuses "build-library, no vcpkg" "--vcpkg is missing" build-library
 refuses "build-library, a folder that is not vcpkg" "is no clone of vcpkg" build-library --vcpkg .

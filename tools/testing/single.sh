@@ -40,9 +40,11 @@ find_single() {
 
 # run_single ARGUMENT: makes what the suite needs, and runs and judges it.
 run_single() {
-  local group file test suite renderer
+  local group file test suite name renderer
   find_single "$1"
   suite=$(basename "${file%.*}")
+  # What its log and its report are called; each run has its own.
+  name=$group-$suite${test:+-${test//[^A-Za-z0-9_]/-}}
   case $group in
     cpp) single_cpp ;;
     commands) single_command ;;
@@ -57,18 +59,18 @@ run_single() {
           need_display
           bake_demo_tables thesis_8
           for renderer in ${LOBELIGHT_RENDERERS:-gl_compatibility}; do
-            single_gdscript "$suite-$renderer" godot_rendered "$renderer"
+            single_gdscript "$name-$renderer" godot_rendered "$renderer"
           done
           ;;
         stereo)
           need_display
           need_stereo_project
           for renderer in ${LOBELIGHT_RENDERERS:-mobile forward_plus}; do
-            single_gdscript "$suite-$renderer" godot_rendered "$renderer" --path "$STEREO_PROJECT"
+            single_gdscript "$name-$renderer" godot_rendered "$renderer" --path "$STEREO_PROJECT"
           done
           ;;
         editor) single_editor ;;
-        *) single_gdscript "$suite" godot_headless ;;
+        *) single_gdscript "$name" godot_headless ;;
       esac
       ;;
   esac
@@ -84,10 +86,10 @@ single_gdscript() {
 single_cpp() {
   need_python ""
   need_core_tests
-  rm -f "$RESULTS/$suite.xml"
-  run_logged "$suite" in_time "$ROOT/build/cmake/lobelight_tests" "--source-file=*$suite.cpp" \
-    ${test:+"--test-case=*$test*"} --reporters=junit "--out=$RESULTS/$suite.xml"
-  judge "$suite" --junit "$RESULTS/$suite.xml"
+  rm -f "$RESULTS/$name.xml"
+  run_logged "$name" in_time "$ROOT/build/cmake/lobelight_tests" "--source-file=*$suite.cpp" \
+    ${test:+"--test-case=*$test*"} --reporters=junit "--out=$RESULTS/$name.xml"
+  judge "$name" --junit "$RESULTS/$name.xml"
 }
 
 single_editor() {
@@ -97,18 +99,18 @@ single_editor() {
   if [[ $file == */without_library/* ]]; then
     rm -rf "$project"/{addons/lobelight/{bin,lobelight.gdextension*},.godot/extension_list.cfg}
   fi
-  run_logged "$suite" in_time env "XDG_DATA_HOME=$RESULTS/editor-user" "$GODOT" --headless --editor --path "$project" ++ \
+  run_logged "$name" in_time env "XDG_DATA_HOME=$RESULTS/editor-user" "$GODOT" --headless --editor --path "$project" ++ \
     --editor-tests "res://$file"
-  judge "$suite" --engine --junit "$project/report/results.xml"
+  judge "$name" --engine --junit "$project/report/results.xml"
 }
 
 single_command() {
   need_python accuracy
   need_import
   if [[ $file == *.py ]]; then
-    run_logged "$suite" in_time "$PYTHON" "$ROOT/$file"
+    run_logged "$name" in_time "$PYTHON" "$ROOT/$file"
   else
-    run_logged "$suite" in_time bash "$ROOT/$file" ${test:+"$test"}
+    run_logged "$name" in_time bash "$ROOT/$file" ${test:+"$test"}
   fi
-  judge "$suite"
+  judge "$name"
 }
