@@ -78,6 +78,9 @@ def check_page(checks, program, folder, with_controls):
         checks.expect("page: the first picture shows something", float(picture.std()) > LEAST_CONTRAST)
         if with_controls:
             check_controls(checks, page, demo)
+        for pixels, wanted in ((1, (60, 40)), (1.5, (90, 60)), (3, (120, 80))):
+            size = demo.canvas_of_screen((60, 40), pixels)
+            checks.expect(f"page: a screen of {pixels} pixels for one of CSS is drawn with {size}", size == wanted)
     checks.expect_silence("page", page)
     page.close()
 

@@ -35,6 +35,7 @@ CHANGES = {
     "lamps.gdshaderinc": ("return lobelight_rim_amount;", "return lobelight_rim_amount.yx;", ["fades"]),
     "line.gdshaderinc": ("REACH = 2.84", "REACH = 2.85", ["line_ggx_16"]),
     "lobe_table.gdshaderinc": ("0.1141528", "0.1151528", ["position_16x8_lobes_1"]),
+    "lobelight.gdshaderinc": ("f0_ = 0.16 *", "f0_ = 0.163 *", ["own_lines_flat"]),
     "material.gdshaderinc": ("max(1.0 - share, 0.0)", "max(0.99 - share, 0.0)", ["material_everything_levels"]),
     "material_inputs.gdshaderinc": ("texel * 2.0 - 1.0", "texel * 2.0 - 0.99", ["material_with_maps_directions"]),
     "normal_variance.gdshaderinc": ("texels / 16.0", "texels / 16.1", ["antialiasing"]),

@@ -22,7 +22,7 @@ REPORT = ROOT / "docs/report/mobile-cost"
 VARIANTS = json.loads((ROOT / "tools/mobile_cost/variants.json").read_text(encoding="utf-8"))
 # What the engine adds around any material.
 BASE = "empty_lit"
-SOURCES = ("addons/lobelight/runtime", "bake/comparators", "tools/mobile_cost")
+SOURCES = ("addons/lobelight/lobelight.gdshaderinc", "addons/lobelight/runtime", "bake/comparators", "tools/mobile_cost")
 ENDINGS = {".gd", ".gdshaderinc", ".json", ".py"}
 
 
@@ -78,9 +78,9 @@ def read_options(arguments):
 def source_key(versions):
     """Hash of everything that a row depends on."""
     digest = hashlib.sha256(versions.encode())
-    for folder in SOURCES:
-        for path in sorted((ROOT / folder).rglob("*")):
-            if path.suffix in ENDINGS and path.name not in ("report.py", "figures.py"):
+    for source in SOURCES:
+        for path in sorted([ROOT / source, *(ROOT / source).rglob("*")]):
+            if path.is_file() and path.suffix in ENDINGS and path.name not in ("report.py", "figures.py"):
                 digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()[:16]
 

@@ -3,6 +3,7 @@
 from probes import ROOT
 
 RUNTIME = "addons/lobelight/runtime"
+FOR_OTHERS = "addons/lobelight/lobelight.gdshaderinc"
 SCRIPTS = ("light/lobe_light.gd", "on_demand.gd", "pyramid/canvas_pass.gd", "pyramid/pyramid.gd")
 PROJECT = """config_version=5
 
@@ -28,8 +29,9 @@ CLASSES = f"""list=[{{
 
 
 def shaders():
-    """The shaders of the run time."""
-    return sorted(path for path in (ROOT / RUNTIME).rglob("*.gdshader*") if path.suffix != ".uid")
+    """The shaders of the run time, and what those of others include."""
+    own = (path for path in (ROOT / RUNTIME).rglob("*.gdshader*") if path.suffix != ".uid")
+    return sorted([*own, ROOT / FOR_OTHERS])
 
 
 def copy_shaders(project, change, variant=""):

@@ -38,6 +38,7 @@ SHADER_TITLES = {
     "shader sources": "Sources",
     "shader diffuse": "Diffuse light",
     "shader material": "Whole materials",
+    "shader own": "Functions for shaders of others",
     "shader colour": "Colours",
     "shader half": "Half floats",
     "shader faces": "Faces of cube maps",

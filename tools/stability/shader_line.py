@@ -29,8 +29,8 @@ def long_axis(o, alpha):
     return long, (alpha[0] * alpha[1] * o[2]) ** 2 / long, axis
 
 
-def lobe(brdf, used, o, alpha, number):
-    """(direction, variance, weight)"""
+def lobe(brdf, used, o, alpha, number, count=COUNT):
+    """(direction, variance, weight) of a lobe of `count`."""
     is_ggx = brdf == "ggx"
     reach, across, gap, shrinking = GGX if is_ggx else WARD
     long, short, axis = long_axis(o, alpha)
@@ -45,14 +45,14 @@ def lobe(brdf, used, o, alpha, number):
         reach = min(max(1.94 * (used * math.sqrt(short / long)) ** 0.17, 1.2), 2.6)
     ends = [max(ends[0], -reach), min(ends[1], reach)]
     step = (ends[1] - ends[0]) / used
-    u = 0.5 * (ends[0] + ends[1]) + (number - 0.5 * (COUNT - 1)) * step
+    u = 0.5 * (ends[0] + ends[1]) + (number - 0.5 * (count - 1)) * step
     variance = across * short / long
     variance = max(variance, gap * step * math.sqrt(variance))
     scale = math.sqrt(max(1 - shrinking * (variance - step**2 / 12), 0.02))
     t = math.sinh(u) if is_ggx else u
     spread = 1 + t * t if is_ggx else 1
     # Its cell's part between the ends, when they are equally far from the middle.
-    inside = min(max(0.5 * (used - COUNT) + min(number, COUNT - 1 - number) + 1, 0), 1)
+    inside = min(max(0.5 * (used - count) + min(number, count - 1 - number) + 1, 0), 1)
     share = inside * step / spread if is_ggx else inside * step * math.exp(-t * t) / math.sqrt(math.pi)
     if not is_ggx:
         share /= 1 - 0.45 * math.exp(-(reach**2)) / reach

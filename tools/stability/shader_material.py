@@ -183,6 +183,13 @@ def channels(totals, off):
     return *lights, About(totals[2], *off[2]), About(totals[3], *off[3])
 
 
+def lost_share(albedo):
+    """What microfacets lose by reflecting among themselves, of what they reflect."""
+    albedo = albedo.clamped("0.05", 1e9)
+    slope = 1 / float(albedo.value) ** 2
+    return About(1 / albedo.value - 1, albedo.off * slope + DIVISION / float(albedo.value) + 2 * U, albedo.half * slope)
+
+
 def expect_material(surface, cube, values, row, renderer):
     normal = vector(row[:3])
     parallel = row[28 + 15] > 0.5
@@ -215,11 +222,7 @@ def expect_material(surface, cube, values, row, renderer):
     )
     is_occluded = "orm" in surface.maps or "ao" in surface.maps
     d0, d90 = vector(surface.dielectric or (0.0, 1.0))
-    albedo = reflection[2].clamped("0.05", 1e9)
-    slope = 1 / float(albedo.value) ** 2
-    lost = About(
-        1 / albedo.value - 1, albedo.off * slope + DIVISION / float(albedo.value) + 2 * U, albedo.half * slope
-    )
+    lost = lost_share(reflection[2])
     diffuse = None
     if surface.dielectric:
         centre = shader.columns_times(camera, axes[2])

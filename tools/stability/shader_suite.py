@@ -14,6 +14,7 @@ import shader_light
 import shader_line
 import shader_material
 import shader_occlusion
+import shader_own
 import shader_passes
 import shader_placed
 import shader_planes
@@ -65,9 +66,10 @@ def make(quick, records):
     fitted = list(fitted_tables(records, quick))
     lit_tables, lit = shader_light.probes(quick)
     worn_tables, worn_textures, worn = shader_material.probes(quick)
+    own_tables, own = shader_own.probes(quick)
     lists, placed = shader_placed.probes(quick)
     textures = worn_textures | lists | probe_textures.textures() | {"panorama": shader_values.panorama_texture()}
-    textures |= {table.name: table.texture() for table in [*tables, *lit_tables, *worn_tables, *(t for t, _title in fitted)]}
+    textures |= {table.name: table.texture() for table in [*tables, *lit_tables, *worn_tables, *own_tables, *(t for t, _title in fitted)]}
     probes = [
         *shader_values.probes(quick),
         *shader_points.probes(quick),
@@ -83,6 +85,7 @@ def make(quick, records):
         *(shader_tables.lobe_probe(table, title, quick, few=True) for table, title in fitted),
         *lit,
         *worn,
+        *own,
         *placed,
     ]
     passes, pyramids = shader_passes.passes(quick), shader_pyramid.pyramids(quick)

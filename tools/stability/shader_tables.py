@@ -90,25 +90,50 @@ class Table:
         )
         return [sum((mpf(float(t[n])) * w for t, w in corners if w != 0), mpf(0)) for n in range(4)]
 
-    def spread(self, number, row, column, row_bound, column_bound):
-        """How far the texel can be off if rows and columns are off by so much and filters have eight bits."""
+    def spread(self, number, rows, column, column_bound):
+        """How far the texel can be off where filters have eight bits, the row lies in `rows`, and the column is off by
+        column_bound."""
         texels = self.texels[number].astype(float)
 
-        def between(r, c):
+        def corners(r, c):
             r0, c0 = math.floor(r), math.floor(c)
-            rows, columns = np.clip([r0, r0 + 1], 0, self.rows - 1), np.clip([c0, c0 + 1], 0, self.columns - 1)
-            four = texels[np.ix_(rows, columns)]
-            f, g = r - r0, c - c0
-            value = (1 - f) * ((1 - g) * four[0, 0] + g * four[0, 1]) + f * ((1 - g) * four[1, 0] + g * four[1, 1])
-            return value, four.max(axis=(0, 1)) - four.min(axis=(0, 1)), np.abs(four).max(axis=(0, 1))
+            some = np.clip([r0, r0 + 1], 0, self.rows - 1), np.clip([c0, c0 + 1], 0, self.columns - 1)
+            return texels[np.ix_(*some)], r - r0, c - c0
 
-        r, c = float(row), float(column)
-        middle, span, size = between(r, c)
-        off = np.zeros(4)
-        for dr in (-row_bound, row_bound):
-            for dc in (-column_bound, column_bound):
-                off = np.maximum(off, np.abs(between(r + dr, c + dc)[0] - middle))
+        def between(r, c):
+            four, f, g = corners(r, c)
+            return (1 - f) * ((1 - g) * four[0, 0] + g * four[0, 1]) + f * ((1 - g) * four[1, 0] + g * four[1, 1])
+
+        c = float(column)
+        middle = between(float(rows.middle), c)
+        off, span, size = np.zeros(4), np.zeros(4), np.zeros(4)
+        # Between texels the filter is linear along either axis, so that it is farthest off at a texel or at an end.
+        for at_row in knots(rows.low - rows.bound, rows.high + rows.bound):
+            for at_column in knots(c - column_bound, c + column_bound):
+                off = np.maximum(off, np.abs(between(at_row, at_column) - middle))
+        for at_row in range(math.floor(rows.low), max(math.ceil(rows.high), math.floor(rows.low) + 1)):
+            four = corners(at_row, c)[0]
+            span = np.maximum(span, four.max(axis=(0, 1)) - four.min(axis=(0, 1)))
+            size = np.maximum(size, np.abs(four).max(axis=(0, 1)))
         return off + FILTER * span + 4 * U * size
+
+
+def knots(low, high):
+    """Both ends, and the whole numbers between them."""
+    return [low, *range(math.floor(low) + 1, math.ceil(high)), high]
+
+
+@dataclass
+class Rows:
+    """Where a lobe's row lies: anywhere from `low` to `high` for what the view's azimuth may be, and off by `bound`."""
+
+    middle: mpf
+    low: float
+    high: float
+    bound: float
+
+    def __add__(self, step):
+        return Rows(self.middle + step, self.low + step, self.high + step, self.bound)
 
 
 @dataclass
@@ -177,8 +202,9 @@ def expect_lobes(table, view, roughness=0.0, anisotropy=0.0, only=None):
     sine = float(mp.hypot(o[0], o[1]))
     # The tangent of isotropic tables is a difference of numbers up to 1 over the sine.
     skew = 8 * U / sine if table.isotropic and sine > 0.99e-5 else 0.0
-    if not table.isotropic:
-        place_bound += min(view_bound / max(sine, 1e-9), 1.0) * (table.places - 1)
+    # Along the normal, any azimuth of the quadrant will do, as the shader says.
+    wander = 0.0 if table.isotropic else min(view_bound / max(sine, 1e-9), 1.0) * (table.places - 1)
+    low, high = max(float(place) - wander, 0.0), min(float(place) + wander, table.places - 1.0)
     column = shader.column(o[2]) * (table.columns - 1)
     steep = column_bound(o[2]) + view_bound * slope_of_column(o[2])
     column_off = steep * (table.columns - 1) + 4 * U * table.columns
@@ -186,21 +212,24 @@ def expect_lobes(table, view, roughness=0.0, anisotropy=0.0, only=None):
     alpha_error = math.log(2) * width_error[1] + 40 * U if table.levels else U
     lobes = []
     for k in range(table.lobes) if only is None else (only,):
-        row = k * table.places + place
-        row_off = place_bound + (k + 4) * U * table.rows
+        at = Rows(place, low, high, place_bound + (k + 4) * U * table.rows) + k * table.places
+        row = at.middle
         texel = [mpf(0)] * 4
         off = np.zeros(4)
         for share, number in shares:
             part = table.fetch(number, row, column)
             texel = [t + share * p for t, p in zip(texel, part)]
-            off += abs(float(share)) * table.spread(number, row, column, row_off, column_off)
+            off += abs(float(share)) * table.spread(number, at, column, column_off)
         if len(shares) > 1:
             # Shares off by the level's error or by the filter's bits, between tables that differ.
-            parts = np.array([[float(x) for x in table.fetch(number, row, column)] for _share, number in shares])
-            off += (4 * width_error[0] + 2 * FILTER) * (parts.max(axis=0) - parts.min(axis=0))
+            apart = np.zeros(4)
+            for r in map(mpf, knots(at.low, at.high)):
+                parts = np.array([[float(x) for x in table.fetch(number, r, column)] for _share, number in shares])
+                apart = np.maximum(apart, parts.max(axis=0) - parts.min(axis=0))
+            off += (4 * width_error[0] + 2 * FILTER) * apart
         # Where halves have fewer bits, they are 2^-24 apart.
         half = np.array([HALF * abs(float(t)) + 2.0**-24 for t in texel])
-        tint = tint_of(table, row, column, row_off, column_off)
+        tint = tint_of(table, at, column, column_off)
         if table.isotropic:
             lobes.append(plane_lobe_of(texel, o, tangent, off, half, view_bound, skew, tint))
             continue
@@ -216,13 +245,13 @@ def slope_of_column(cosine):
     return float((after - before) / step)
 
 
-def tint_of(table, row, column, row_off, column_off):
+def tint_of(table, rows, column, column_off):
     """The lobe's colour, and what each channel may be off by."""
     if not table.second:
         return (mpf(1), mpf(1), mpf(1)), U
-    row += table.rows // 2
-    red, blue = table.fetch(0, row, column)[2:]
-    off = table.spread(0, row, column, row_off, column_off)[2:].sum()
+    rows += table.rows // 2
+    red, blue = table.fetch(0, rows.middle, column)[2:]
+    off = table.spread(0, rows, column, column_off)[2:].sum()
     return (red, max(3 - red - blue, mpf(0)), blue), float(off) + 6 * U
 
 

@@ -31,6 +31,7 @@ class DemoPage:
 
     def __init__(self, page):
         self.page = page
+        self.screen = None
 
     def open(self, address, limit):
         """Loads it and waits for the first picture, `limit` seconds at most."""
@@ -83,6 +84,17 @@ class DemoPage:
         picture = self.settle()
         box = self.page.page.locator("canvas").bounding_box()
         return picture, (round(box["width"]), round(box["height"]))
+
+    def canvas_of_screen(self, size, pixels):
+        """The canvas's width and height in pixels where the window is of this size and the screen has so many pixels for each
+        of CSS. The page stays so."""
+        if self.screen is None:
+            # What it says holds for as long as it lives.
+            self.screen = self.page.context.new_cdp_session(self.page.page)
+        of_screen = {"width": size[0], "height": size[1], "deviceScaleFactor": pixels, "mobile": False}
+        self.screen.send("Emulation.setDeviceMetricsOverride", of_screen)
+        self.wait_for_frames(FRAMES)
+        return tuple(self.page.page.evaluate("(c => [c.width, c.height])(document.getElementById('canvas'))"))
 
 
 def find_divider(picture):

@@ -1,8 +1,10 @@
 @tool
 extends EditorInspectorPlugin
-## A warning in the inspector of a node whose mesh lacks the tangents that its [LobeMaterial3D]
-## needs. The engine makes some up then: brushed surfaces and normal maps look wrong.
+## A warning in the inspector of a node whose mesh lacks the tangents that its [LobeMaterial3D], or
+## a shader of one's own, needs. The engine makes some up then: brushed surfaces and normal maps
+## look wrong.
 
+const OwnShaderTangents := preload("own_shaders/own_shader_tangents.gd")
 const WarningLabel := preload("warnings/warning_label.gd")
 
 
@@ -11,34 +13,76 @@ func _can_handle(object: Object) -> bool:
 
 
 func _parse_begin(object: Object) -> void:
-	var surfaces := find_surfaces(object as MeshInstance3D)
+	for sentence in of(object as MeshInstance3D):
+		add_custom_control(WarningLabel.new(sentence))
+
+
+## A sentence for the surfaces with a [LobeMaterial3D] that lack tangents, and one for those with a
+## shader of one's own.
+static func of(instance: MeshInstance3D) -> PackedStringArray:
+	var sentences: PackedStringArray = []
+	var surfaces := find_surfaces(instance)
 	if not surfaces.is_empty():
-		add_custom_control(WarningLabel.new(get_text(surfaces)))
+		sentences.append(get_text(surfaces))
+	surfaces = find_own_surfaces(instance)
+	if not surfaces.is_empty():
+		sentences.append(get_own_text(surfaces))
+	return sentences
 
 
-## The surfaces of a node that lack what their material needs.
+## The surfaces of a node that lack what their [LobeMaterial3D] needs.
 static func find_surfaces(instance: MeshInstance3D) -> PackedInt32Array:
-	var found: PackedInt32Array = []
-	if instance.mesh == null:
-		return found
-	for surface in instance.mesh.get_surface_count():
-		var material := instance.get_active_material(surface) as LobeMaterial3D
-		if material != null and material.needs_tangents() and not _has(instance.mesh, surface):
-			found.append(surface)
-	return found
+	return _find(instance, _is_needed_by_lobes)
+
+
+## The surfaces of a node that lack what their material's own shader needs.
+static func find_own_surfaces(instance: MeshInstance3D) -> PackedInt32Array:
+	return _find(instance, _is_needed_by_own_shader)
 
 
 static func get_text(surfaces: PackedInt32Array) -> String:
-	var names: PackedStringArray = []
-	for surface in surfaces:
-		names.append(str(surface))
 	return (
 		(
 			"LobeMaterial3D: the mesh has no tangents on surface %s, which anisotropy and normal maps "
 			+ "need. Import it with Ensure Tangents, or call SurfaceTool.generate_tangents()."
 		)
-		% ", ".join(names)
+		% _list(surfaces)
 	)
+
+
+static func get_own_text(surfaces: PackedInt32Array) -> String:
+	return (
+		(
+			"The mesh has no tangents on surface %s, which its shader's anisotropy needs: import it "
+			+ "with Ensure Tangents, or #define LOBELIGHT_ISOTROPIC in the shader if nothing is brushed."
+		)
+		% _list(surfaces)
+	)
+
+
+static func _find(instance: MeshInstance3D, is_needed: Callable) -> PackedInt32Array:
+	var found: PackedInt32Array = []
+	if instance.mesh == null:
+		return found
+	for surface in instance.mesh.get_surface_count():
+		var material := instance.get_active_material(surface)
+		if is_needed.call(material) and not _has(instance.mesh, surface):
+			found.append(surface)
+	return found
+
+
+static func _is_needed_by_lobes(material: Material) -> bool:
+	return material is LobeMaterial3D and (material as LobeMaterial3D).needs_tangents()
+
+
+static func _is_needed_by_own_shader(material: Material) -> bool:
+	if material is LobeMaterial3D or not material is ShaderMaterial:
+		return false
+	return OwnShaderTangents.are_needed(material as ShaderMaterial)
+
+
+static func _list(surfaces: PackedInt32Array) -> String:
+	return ", ".join(Array(surfaces).map(str))
 
 
 # The engine stores tangents for every mesh with normals. To one without, it gives

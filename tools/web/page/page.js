@@ -10,6 +10,8 @@
   // The files' bytes: what a host compresses, it sends without its length.
   const files = JSON.parse(document.getElementById("files").textContent);
   const MEGABYTE = 1e6;
+  // Of the canvas for each pixel of CSS, along either axis. Phones have 3 or 4: nine or sixteen times the work for what is hardly seen.
+  const MOST_PIXELS = 2;
   let failed = false;
   let started = false;
 
@@ -63,6 +65,18 @@
     return "";
   }
 
+  // The engine asks the window whenever it looks how large the canvas has to be.
+  function limitPixelRatio() {
+    const own = Object.getOwnPropertyDescriptor(window, "devicePixelRatio");
+    if (own && own.get && own.configurable) {
+      Object.defineProperty(window, "devicePixelRatio", {
+        configurable: true,
+        enumerable: true,
+        get: () => Math.min(own.get.call(window), MOST_PIXELS),
+      });
+    }
+  }
+
   function showProgress(current, total) {
     if (total > 0 && current < total) {
       const loaded = (current / MEGABYTE).toFixed(1);
@@ -102,11 +116,12 @@
   canvas.addEventListener("webglcontextlost", () => {
     fail("The browser has taken the graphics context away, as it does when memory is short: please reload the page.");
   });
+  limitPixelRatio();
   const engine = new Engine({
     executable: "index",
     mainPack: "index.pck",
     canvas: canvas,
-    // As large as the window, in the screen's own pixels.
+    // As large as the window, in the screen's own pixels or those that are left of them.
     canvasResizePolicy: 2,
     focusCanvas: true,
     args: [],

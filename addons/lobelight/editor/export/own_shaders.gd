@@ -120,7 +120,7 @@ func read_line(file: String, line: String) -> void:
 	if file not in _writers and _node.search(line) != null:
 		_writers.append(file)
 	for found in _named.search_all(line):
-		if file not in _writers and _leads(_find_path(found.get_string(), file)):
+		if file not in _writers and _leads(find_path(found.get_string(), file)):
 			_writers.append(file)
 
 
@@ -209,7 +209,7 @@ func _follow(directive: String, rest: String, path: String, reading: Reading) ->
 		"undef":
 			reading.defines.erase(rest)
 		"include":
-			_include(_find_path(rest.trim_prefix('"').trim_suffix('"'), path), reading)
+			_include(find_path(rest.trim_prefix('"').trim_suffix('"'), path), reading)
 
 
 func _include(path: String, reading: Reading) -> void:
@@ -247,7 +247,8 @@ func _leads(path: String) -> bool:
 	return reading.found.is_lit
 
 
-static func _find_path(named: String, file: String) -> String:
+## What a file names, as a path or as an id.
+static func find_path(named: String, file: String) -> String:
 	if named.begins_with("uid://"):
 		var id := ResourceUID.text_to_id(named)
 		return ResourceUID.get_id_path(id) if ResourceUID.has_id(id) else ""

@@ -57,7 +57,7 @@ func _look_at(node: Node) -> void:
 		if material.table != null and material.table not in tables:
 			tables.append(material.table)
 	var instance := node as MeshInstance3D
-	if instance != null and not TangentWarning.find_surfaces(instance).is_empty():
+	if instance != null and not TangentWarning.of(instance).is_empty():
 		without_tangents.append(instance)
 	for child in node.get_children():
 		_look_at(child)
