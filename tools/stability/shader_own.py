@@ -44,8 +44,9 @@ class Own:
     has_line: bool = False
 
     def defines(self):
-        quality = LINE if self.has_line else 8
-        return (*self.table.defines(), *([] if self.table.isotropic else [f"LOBELIGHT_QUALITY {quality}"]))
+        # What the file defines itself is not to be defined twice.
+        names = [name for name in self.table.defines() if name != "LOBELIGHT_WIDTHS_PER_PIXEL"]
+        return (*names, f"LOBELIGHT_QUALITY {LINE if self.has_line else 8}")
 
     def uniforms(self):
         values = self.table.uniforms()
