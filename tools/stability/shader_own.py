@@ -42,10 +42,13 @@ class Own:
     table: object
     cube: str
     has_line: bool = False
+    # The lights of shader_placed.py that it is among; none for one light everywhere.
+    rooms: int | None = None
 
     def defines(self):
         # What the file defines itself is not to be defined twice.
         names = [name for name in self.table.defines() if name != "LOBELIGHT_WIDTHS_PER_PIXEL"]
+        names += ["LOBELIGHT_PLACED"] * (self.rooms is not None)
         return (*names, f"LOBELIGHT_QUALITY {LINE if self.has_line else 8}")
 
     def uniforms(self):
@@ -107,6 +110,23 @@ def about_line(own, axes, view, row):
     return About(share, FADE), About(mpf(albedo), off), About(mpf(grazing), shader_line.SHARE * 5 * grazing + off)
 
 
+def expect_placed(row, renderer):
+    """Among lights whose shares make up one at least, all of them white."""
+    energy = mpf(is_seen(row, renderer))
+    checks = [Holds(partial(within, MOST * float(energy) + 1e-12))]
+    if energy:
+        white = [at for at in range(9) if at // 3 == 1 or row[12 + at % 3] == 1.0]
+        checks += [Energy(at, energy, 2e-5, 1e-3) for at in white]
+    return checks
+
+
+def is_seen(row, renderer):
+    """Whether it is no lightmap that asks."""
+    if renderer == "gl_compatibility":
+        return row[28 + 10] > 0
+    return row[28 + 15] <= 0.5 or row[28 + 5] < 0
+
+
 def row_elevation(row):
     view = (0.0, 0.0, 1.0) if row[28 + 15] > 0.5 else row[8:11]
     return math.degrees(math.acos(min(max(sum(a * b for a, b in zip(view, row[:3])), -1.0), 1.0)))
@@ -148,7 +168,7 @@ def expect_own(own, values, row, renderer):
     view = (mpf(0), mpf(0), mpf(1)) if parallel else vector(row[8:11])
     camera = [vector(row[16 + 4 * n : 19 + 4 * n]) for n in range(3)]
     metallic, specular = mpf(row[11]), mpf(row[15])
-    seen = row[28 + 10] > 0 if renderer == "gl_compatibility" else not parallel or row[28 + 5] < 0
+    seen = is_seen(row, renderer)
     energy = mpf(values["energy"]) if seen else mpf(0)
     most = MOST * float(energy) * brightest(own.cube) + 1e-12
     checks = [Holds(partial(within, most))]
@@ -214,7 +234,7 @@ def fill(probe, own, quick):
     if own.cube == "flat":
         elevations = [0.0, *elevations[1:], 180.0]
     colours = [(1.0, 0.5, 0.0, 0.5), (0.0, 1.0, 0.04, 1.0), (0.25, 0.75, 1.0, 0.0)]
-    number = 0
+    number, places = 0, np.random.default_rng(43)
     for roughness, anisotropy in widths:
         rows = []
         for elevation in elevations:
@@ -229,7 +249,8 @@ def fill(probe, own, quick):
                 view = [sum(frame[n][axis] * local[n] for n in range(3)) for axis in range(3)]
                 normal = single(frame[2])
                 choices = tangents([*frame[:2], normal])
-                camera = [x for column in turn(number % 4) for x in (*column, 0)]
+                place = places.uniform(-4, 4, 3) if own.rooms is not None else (0.0, 0.0, 0.0)
+                camera = [x for column, at in zip(turn(number % 4), place) for x in (*column, at)]
                 rows.append(
                     (
                         *(*normal, roughness, *choices[number % len(choices)], anisotropy),
@@ -238,7 +259,8 @@ def fill(probe, own, quick):
                     )
                 )
         shown = f"roughness {roughness:g}" + ("" if own.table.isotropic else f" anisotropy {anisotropy:g}")
-        probe.add(f"own shader, {own.name}, {own.cube}, {shown}", rows)
+        where = "" if own.rooms is None else f", {('one room', 'four lights')[own.rooms]}"
+        probe.add(f"own shader, {own.name}, {own.cube}{where}, {shown}", rows)
 
 
 def probes(quick):
@@ -253,20 +275,25 @@ def probes(quick):
         Own("long", long_set, "directions"),
         Own("long", long_set, "flat"),
         Own("lines", long_set, "flat", has_line=True),
+        Own("round", round_set, "flat", rooms=0),
+        Own("lines", long_set, "flat", has_line=True, rooms=1),
     ):
+        is_placed = own.rooms is not None
         values = light(1 if own.cube == "directions" else LEVELS_SIZE, "disc", 0.0, own.cube, energy=0.75)
         probe = Probe(
-            f"own_{own.name}_{own.cube}",
+            f"own_{own.name}_{own.cube}" + (f"_placed_{own.rooms}" if is_placed else ""),
             "shader own",
             "own",
             9,
-            partial(expect_own, own, values),
-            light=values,
+            expect_placed if is_placed else partial(expect_own, own, values),
+            light=None if is_placed else values,
             by_renderer=True,
             has_medium=True,
         )
         probe.defines, probe.uniforms = own.defines(), own.uniforms()
         probe.textures = {"lobelight_table": own.table.name}
+        if is_placed:
+            probe.textures |= {"lobelight_lights": f"placed_{own.rooms}_list", "lobelight_environment": own.cube}
         fill(probe, own, quick)
         made.append(probe)
     return [round_set, long_set], made
