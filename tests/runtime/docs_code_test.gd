@@ -1,5 +1,6 @@
 extends GdUnitTestSuite
-## The GDScript code of the documentation compiles, and the first steps make what they say.
+## The GDScript code of the documentation compiles, the first steps make what they say, and the
+## sentences that the pages quote are those that the addon has.
 
 const FOLDERS: PackedStringArray = ["res://docs/", "res://docs/guide/"]
 const README := "res://README.md"
@@ -14,6 +15,18 @@ var table_set: LobeTableSet
 const STAND_INS: Dictionary[String, String] = {
 	"res://car_paint.gdshader": "res://demo/examples/car_paint/car_paint.gdshader"
 }
+## Pages with sentences in quotes, and how those of the engine begin.
+const QUOTING: PackedStringArray = [
+	"troubleshooting", "exports", "baked-light", "install", "brushed-metal", "measured-brdfs"
+]
+const OF_ENGINE: PackedStringArray = [
+	"Can't open dynamic library",
+	"GDExtension dynamic library not found",
+	"No GDExtension library found for",
+	"GDExtension only compatible with Godot version",
+]
+# Shorter ones may be anything.
+const LEAST_LENGTH := 10
 
 var _fence := RegEx.create_from_string("(?s)```gdscript\\n(.*?)```")
 
@@ -61,6 +74,63 @@ func test_first_steps_show_a_brushed_sphere() -> void:
 	assert_bool(material.needs_tangents()).is_true()
 	assert_int(material.get_fetches()["environment"]).is_greater_equal(8)
 	root.free()
+
+
+func test_quoted_sentences_exist() -> void:
+	var messages := _read_messages()
+	var count := 0
+	for page in QUOTING:
+		var unknown := find_unknown(
+			FileAccess.get_file_as_string("res://docs/%s.md" % page), messages
+		)
+		assert_array(unknown).override_failure_message("%s: %s" % [page, unknown]).is_empty()
+		count += _quotes_of(FileAccess.get_file_as_string("res://docs/%s.md" % page)).size()
+	assert_int(count).is_greater(30)
+
+
+func test_unknown_sentences_are_found() -> void:
+	var messages := _read_messages()
+	assert_array(find_unknown("says “The mesh is broken here.”", messages)).has_size(1)
+	(
+		assert_array(find_unknown("says “… shows a neutral map, as there is no …”", messages))
+		. is_empty()
+	)
+
+
+## What a text quotes that no message has, without what stands for names.
+func find_unknown(text: String, messages: String) -> PackedStringArray:
+	var unknown: PackedStringArray = []
+	for quote in _quotes_of(text):
+		for part in quote.split("…"):
+			var words := part.lstrip(" .:,").rstrip(" .:,")
+			var is_of_engine := Array(OF_ENGINE).any(words.begins_with)
+			if words.length() >= LEAST_LENGTH and not is_of_engine and not words in messages:
+				unknown.append(words)
+	return unknown
+
+
+func _quotes_of(text: String) -> PackedStringArray:
+	var quotes: PackedStringArray = []
+	for found in RegEx.create_from_string("“([^”]*)”").search_all(text.replace("\n", " ")):
+		quotes.append(found.get_string(1))
+	return quotes
+
+
+# The addon's and the library's sources, strings that are added up being one.
+func _read_messages() -> String:
+	var sources: PackedStringArray = []
+	_read_below("res://addons/lobelight", sources)
+	_read_below("res://gdextension", sources)
+	var joined := RegEx.create_from_string('"\\s*\\+?\\s*"').sub("\n".join(sources), "", true)
+	return joined.replace('\\"', '"')
+
+
+func _read_below(folder: String, sources: PackedStringArray) -> void:
+	for file in DirAccess.get_files_at(folder):
+		if file.get_extension() in ["gd", "cpp"]:
+			sources.append(FileAccess.get_file_as_string(folder.path_join(file)))
+	for name in DirAccess.get_directories_at(folder):
+		_read_below(folder.path_join(name), sources)
 
 
 ## A script of a block of a page.
