@@ -33,8 +33,7 @@ else
   tag=$3
   while (($# > 0)); do
     case $1 in
-      --dir) folder=$2 ;;
-      --pattern) cp "$FAKE_RELEASES/$tag/$2" "$folder" ;;
+      --pattern) cp "$FAKE_RELEASES/$tag/$2" . ;;
     esac
     shift
   done

@@ -37,7 +37,7 @@ toolchain=scripts/buildsystems/vcpkg.cmake
 vcpkg=$(cd "$vcpkg" && pwd)
 system=$(host_system)
 architecture=$(host_architecture)
-build=$ROOT/build/system
+root=$ROOT
 
 arch=x64
 [[ $architecture == x86_64 ]] || arch=arm64
@@ -56,9 +56,9 @@ case $system in
     triplet=$arch-windows-static
     [[ $arch == arm64 ]] && platform=ARM64 || platform=x64
     options+=(-G "Visual Studio 17 2022" -A "$platform" -T ClangCL -DCMAKE_MSVC_RUNTIME_LIBRARY=MultiThreaded)
-    # CMake is not a program of Git's Bash.
+    # CMake does not know the paths of Git's Bash.
     vcpkg=$(cygpath -m "$vcpkg")
-    build=$(cygpath -m "$ROOT")/build/system
+    root=$(cygpath -m "$ROOT")
     ;;
 esac
 
@@ -71,9 +71,11 @@ if [[ ! -x $vcpkg/vcpkg && ! -x $vcpkg/vcpkg.exe ]]; then
   fi
 fi
 
+build=$root/build/system
 mkdir -p "$ROOT/build"
+[[ -z ${VCPKG_DEFAULT_BINARY_CACHE:-} ]] || mkdir -p "$VCPKG_DEFAULT_BINARY_CACHE"
 touch "$ROOT/build/.gdignore"
-cmake -S "$ROOT/gdextension" -B "$build" "${options[@]}" -DCMAKE_TOOLCHAIN_FILE="$vcpkg/$toolchain" \
+cmake -S "$root/gdextension" -B "$build" "${options[@]}" -DCMAKE_TOOLCHAIN_FILE="$vcpkg/$toolchain" \
   -DVCPKG_TARGET_TRIPLET="$triplet" -DVCPKG_INSTALLED_DIR="$build/packages" \
   -DGODOT_CPP_SOURCE_DIR="$build/packages/$triplet/share/godot-cpp/source"
 cmake --build "$build" --config Release --target lobelight_library --parallel

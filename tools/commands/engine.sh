@@ -61,7 +61,8 @@ if [[ ! -f $folder/complete ]]; then
   rm -rf "$folder"
   mkdir -p "$folder"
   say "Downloading Godot $tag …"
-  gh release download "$tag" --repo "$repository" --dir "$folder" --pattern "$asset" --pattern SHA512-SUMS.txt >&2 \
+  # In the folder, since gh does not know the paths of Git's Bash on Windows.
+  (cd "$folder" && gh release download "$tag" --repo "$repository" --pattern "$asset" --pattern SHA512-SUMS.txt >&2) \
     || die "engine: $asset of $tag cannot be downloaded"
   (cd "$folder" && grep -E "[ *]$asset\$" SHA512-SUMS.txt | check_sum) \
     || die "engine: what was downloaded for $asset does not have the checksum in SHA512-SUMS.txt"

@@ -79,7 +79,7 @@ cp "$ROOT/tools/smoke/smoke.gd" "$project/smoke.gd"
 
 # smoke.gd names classes, which are known once the project has been imported.
 cd "$project"
-"$GODOT" --version
+"$GODOT" --version || die "smoke: $GODOT does not run here"
 "$GODOT" --headless --path . --import >"$project/import.log" 2>&1 || {
   tail -n 15 "$project/import.log" >&2
   die "smoke: the engine did not import the project"
