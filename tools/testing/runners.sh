@@ -320,8 +320,10 @@ run_renderers() {
   judge renderers
 }
 
-# The judge of the runners, and what ./dev lint finds in the run time and its shaders.
+# The judge of the runners, how one suite is found, and what ./dev lint finds in the run time and its shaders.
 run_harness() {
+  run_logged single in_time bash "$ROOT/tools/testing/single_test.sh"
+  judge single
   run_logged harness in_time "$PYTHON" "$ROOT/tools/testing/results_test.py"
   judge harness
   run_logged arrows in_time "$PYTHON" "$ROOT/tools/lint/arrows_test.py"
