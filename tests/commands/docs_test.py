@@ -269,7 +269,8 @@ def test_in_a_browser() -> list[str]:
     wanted = [
         "asks.html: asks another host: http://198.51.100.1/x.png",
         'wide.html: 210 pixels too wide at 390: <p id="long"',
-        "index.html: the search finds nothing",
+        f"index.html: the search finds nothing for '{browser_check.SEARCHED}' at http:",
+        f"index.html: the search finds nothing for '{browser_check.SEARCHED}' at file:",
     ]
     problems = [f"not found: {text}" for text in wanted if not any(line.startswith(text) for line in found)]
     return problems + [f"found: {line}" for line in found if line.startswith("fits.html")]

@@ -57,11 +57,15 @@ def check(site: Path, seconds: float = 30) -> list[Finding]:
             found += [Finding(name, " ".join(problem.split())) for problem in problems if problem]
             asked.clear()
             said.clear()
-        page.goto(f"{address}index.html?q={SEARCHED}")
-        try:
-            page.wait_for_selector(".md-search-result__item", timeout=seconds * 1000, state="attached")
-        except NothingFound:
-            found.append(Finding("index.html", f"the search finds nothing for '{SEARCHED}'"))
         context.close()
+        # From a server, and from a folder.
+        for start in (address, f"{site.resolve().as_uri()}/"):
+            page = program.new_page()
+            page.goto(f"{start}index.html?q={SEARCHED}")
+            try:
+                page.wait_for_selector(".md-search-result__item", timeout=seconds * 1000, state="attached")
+            except NothingFound:
+                found.append(Finding("index.html", f"the search finds nothing for '{SEARCHED}' at {start.split(':')[0]}:"))
+            page.close()
     return found
 

@@ -17,7 +17,7 @@ from checks import Finding
 
 CONFIG = Path(__file__).with_name("mkdocs.yml")
 CONFIG_NAME = "tools/docs/mkdocs.yml"
-STYLE = Path(__file__).with_name("site.css")
+OWN_FILES = [Path(__file__).with_name(name) for name in ("site.css", "iframe-worker.js")]
 LOGO = "addons/lobelight/icons/lobelight.svg"
 # What a browser loads by itself from another host. Links that people follow may lead anywhere.
 LOADED = re.compile(
@@ -68,7 +68,7 @@ def build(root: Path, found: dict[str, ElementTree.Element], work: Path, fonts: 
     config = base_config()
     names = set(pages.gather(root, docs, config.get("repo_url", "")))
     class_pages.write(found, docs / class_pages.FOLDER)
-    for source in (STYLE, root / LOGO, *fonts):
+    for source in (*OWN_FILES, root / LOGO, *fonts):
         # Debian keeps a package's licence in a file of this name.
         name = "STIXMath-LICENSE.txt" if source.name == "copyright" else source.name
         target = docs / "assets" / name
