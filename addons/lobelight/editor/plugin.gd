@@ -4,10 +4,12 @@ extends EditorPlugin
 ##
 ## The types of the run time register themselves by their class names, and the baker by the native
 ## library. What is added here: inspectors with bakes, plots and warnings, gizmos, importers,
-## conversions of materials, a menu for scenes, and the filter of exports.
+## conversions of materials, menus for scenes, and the filter of exports.
 
 const BakeDialog := preload("bake/bake_dialog.gd")
 const BakeQueue := preload("bake/bake_queue.gd")
+const CreateButton := preload("create/create_button.gd")
+const CreateMenu := preload("create/create_menu.gd")
 const ExportPlugin := preload("export/export_plugin.gd")
 const GltfImport := preload("import/gltf_import.gd")
 const LightBakes := preload("light/light_bakes.gd")
@@ -41,6 +43,8 @@ var _gltf_import: GltfImport
 var _preset_inspector: PresetInspector
 var _warning_inspector: WarningInspector
 var _own_shaders: OwnShaderInspector
+var _create_menu: CreateMenu
+var _create_button: CreateButton
 var _tools_menu: ToolsMenu
 var _probe_gizmo: ProbeGizmo
 var _light_bakes: LightBakes
@@ -91,7 +95,10 @@ func _enter_tree() -> void:
 	add_inspector_plugin(_normal_variance)
 	_own_shaders = OwnShaderInspector.new(get_undo_redo())
 	add_inspector_plugin(_own_shaders)
-	_tools_menu = ToolsMenu.new(_bakes, _light_bakes, _scene_menu)
+	_create_menu = CreateMenu.new(get_undo_redo())
+	_create_button = CreateButton.new(_create_menu)
+	add_control_to_container(CONTAINER_SPATIAL_EDITOR_MENU, _create_button)
+	_tools_menu = ToolsMenu.new(_bakes, _light_bakes, _scene_menu, _create_menu)
 	add_tool_submenu_item(ToolsMenu.TITLE, _tools_menu)
 	_probe_gizmo = ProbeGizmo.new(get_undo_redo())
 	add_node_3d_gizmo_plugin(_probe_gizmo)
@@ -126,6 +133,9 @@ func _exit_tree() -> void:
 	_light_bakes = null
 	remove_node_3d_gizmo_plugin(_probe_gizmo)
 	_probe_gizmo = null
+	remove_control_from_container(CONTAINER_SPATIAL_EDITOR_MENU, _create_button)
+	_create_button.queue_free()
+	_create_menu = null
 	# It is freed with its item.
 	remove_tool_menu_item(ToolsMenu.TITLE)
 	for importer in _importers:
@@ -143,6 +153,11 @@ func _exit_tree() -> void:
 ## Project > Tools > Lobelight.
 func get_tools_menu() -> ToolsMenu:
 	return _tools_menu
+
+
+## What is added to scenes.
+func get_create_menu() -> CreateMenu:
+	return _create_menu
 
 
 ## What the 3D view shows of probes.

@@ -296,7 +296,7 @@ func test_the_menu_is_under_tools_once() -> void:
 	Kit.get_plugin(get_tree())
 	var menus := Kit.find_all(EditorInterface.get_base_control(), ToolsMenu)
 	assert_int(menus.size()).is_equal(1)
-	assert_int((menus[0] as PopupMenu).item_count).is_equal(6)
+	assert_int((menus[0] as PopupMenu).item_count).is_equal(7)
 
 
 func test_the_resources_are_offered_where_the_guide_says() -> void:

@@ -3,6 +3,7 @@ extends GdUnitTestSuite
 ## What the editor says where the native library is missing.
 
 const BakePanel := preload("res://addons/lobelight/editor/bake/bake_panel.gd")
+const CreateMenu := preload("res://addons/lobelight/editor/create/create_menu.gd")
 const Kit := preload("res://tests/editor/editor_kit.gd")
 const NativeLibrary := preload("res://addons/lobelight/editor/bake/native_library.gd")
 const Recipe := preload("res://addons/lobelight/editor/bake/bake_recipe.gd")
@@ -32,3 +33,11 @@ func test_a_bake_fails_with_a_sentence() -> void:
 	bakes.failed.disconnect(note)
 	assert_array(messages).is_equal(PackedStringArray([NativeLibrary.MISSING]))
 	assert_int(table.lobe_count).is_equal(0)
+
+
+func test_scenes_are_made_without_it() -> void:
+	Kit.get_plugin(get_tree()).get_create_menu().choose(CreateMenu.Item.SPHERE)
+	var root := EditorInterface.get_edited_scene_root()
+	assert_int(root.get_child_count()).is_equal(4)
+	EditorInterface.close_scene()
+	await await_idle_frame()

@@ -6,12 +6,12 @@ extends EditorNode3DGizmoPlugin
 ## the capture point.
 
 const BoxHandles := preload("box_handles.gd")
+const IconFile := preload("../icon_file.gd")
 
 const _NAME := "LobeProbe3D"
 const _COLOR_SETTING := "editors/3d_gizmos/gizmo_colors/reflection_probe"
 const _FAINT := 0.3
-# Drawn by the plugin itself, as a project that has never been imported has no textures of it.
-const _ICON := "res://addons/lobelight/icons/lobe_probe_3d.svg"
+const _ICON := "lobe_probe_3d"
 const _ICON_MAGNIFICATION := 8.0
 const _ICON_SCALE := 0.05
 # The first handle of the capture point, and how far from it its handles are.
@@ -30,9 +30,7 @@ func _init(undo_redo: EditorUndoRedoManager = null) -> void:
 	var color: Color = EditorInterface.get_editor_settings().get_setting(_COLOR_SETTING)
 	create_material("box", color)
 	create_material("faded", Color(color, color.a * _FAINT))
-	var icon := Image.new()
-	icon.load_svg_from_string(FileAccess.get_file_as_string(_ICON), _ICON_MAGNIFICATION)
-	create_icon_material("icon", ImageTexture.create_from_image(icon))
+	create_icon_material("icon", IconFile.draw(_ICON, _ICON_MAGNIFICATION))
 	create_handle_material("handles")
 	EditorInterface.get_selection().selection_changed.connect(_on_selection_changed)
 

@@ -2,9 +2,10 @@
 extends PopupMenu
 ## Project > Tools > Lobelight: what concerns a whole scene.
 
-enum Item { BAKE, REPORT, CONVERT, BAKE_PROBES, CONVERT_BACK, ASK_TO_CONVERT }
+enum Item { BAKE, REPORT, CONVERT, BAKE_PROBES, CONVERT_BACK, ASK_TO_CONVERT, CREATE }
 
 const BakeQueue := preload("../bake/bake_queue.gd")
+const CreateMenu := preload("../create/create_menu.gd")
 const LightBakes := preload("../light/light_bakes.gd")
 const LightFile := preload("../light/light_file.gd")
 const Recipe := preload("../bake/bake_recipe.gd")
@@ -23,12 +24,19 @@ var _text: TextEdit
 
 
 func _init(
-	queue: BakeQueue = null, light_bakes: LightBakes = null, conversion: SceneConversionMenu = null
+	queue: BakeQueue = null,
+	light_bakes: LightBakes = null,
+	conversion: SceneConversionMenu = null,
+	create: CreateMenu = null
 ) -> void:
 	_queue = queue
 	_light_bakes = light_bakes
 	_conversion = conversion
 	name = TITLE
+	if create != null:
+		var created := PopupMenu.new()
+		create.fill(created)
+		add_submenu_node_item("Create", created, Item.CREATE)
 	add_item("Bake All Tables in This Scene", Item.BAKE)
 	add_item("Bake All Probes in This Scene", Item.BAKE_PROBES)
 	add_item("Report What This Scene Uses …", Item.REPORT)
