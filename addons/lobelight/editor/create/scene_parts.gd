@@ -14,6 +14,7 @@ const ENVIRONMENT := "LobeEnvironment3D"
 # Of a new SphereMesh. Spheres stand on the grid, this far from each other.
 const _RADIUS := 0.5
 const _STEP := Vector3(1.25, 0.0, 0.0)
+const _SUN_HEIGHT := 3.0
 
 
 ## What a scene lacks to have light, by the names of nodes in their order; [param root] may be
@@ -88,11 +89,15 @@ static func _make_world() -> WorldEnvironment:
 
 static func _make_sun() -> DirectionalLight3D:
 	var preview := View3D.find_preview_sun()
+	var sun: DirectionalLight3D
 	if preview != null:
-		return preview.duplicate()
-	var sun := DirectionalLight3D.new()
-	sun.rotation_degrees = Vector3(-60, 150, 0)
-	sun.shadow_enabled = true
+		sun = preview.duplicate()
+	else:
+		sun = DirectionalLight3D.new()
+		sun.rotation_degrees = Vector3(-60, 150, 0)
+		sun.shadow_enabled = true
+	# Where its icon hides no sphere.
+	sun.position.y = _SUN_HEIGHT
 	return sun
 
 
