@@ -17,7 +17,7 @@ The pages are those of docs/, CHANGELOG.md and CONTRIBUTING.md, and one of each 
 the sources. The site is static files: any host serves them, and it loads nothing from other hosts.
 One sentence, with file and line, is written for each dead link or anchor, missing picture, picture that no command draws,
 command or option that ./dev does not have, path that is not in the repository, and member without description. Then the
-command ends with 1; the site is built all the same.
+command ends with 1; the site is built all the same. Links to other hosts are not followed.
 USAGE
 }
 

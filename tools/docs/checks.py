@@ -10,7 +10,7 @@ from commands import Commands
 from markdown_text import Page, Span
 
 # Folders of the top level, whose paths in a page name files of the repository.
-TOP_FOLDERS = ("addons", "bake", "demo", "docs", "gdextension", "tests", "tools")
+TOP_FOLDERS = (r"\.github", "addons", "bake", "demo", "docs", "gdextension", "tests", "tools")
 # A path in code, as far as it is literal; what follows a space, a colon or a bracket is no part of it.
 REPOSITORY_PATH = re.compile(rf"(?P<path>(?:{'|'.join(TOP_FOLDERS)})/[\w./*@+-]*)(?P<after>.?)")
 RESOURCE_PATH = re.compile(rf"res://(?P<path>(?:{'|'.join(TOP_FOLDERS)})/[\w./*@+-]*)(?P<after>.?)")

@@ -32,7 +32,7 @@ def main() -> int:
     site, findings = site_build.build(ROOT, found, options.work, options.fonts)
     findings += [Finding("class reference", sentence) for sentence in classes.findings(found)]
     checks = Checks(ROOT)
-    for path in [ROOT / "README.md", *pages.sources(ROOT)]:
+    for path in [*pages.sources(ROOT), *pages.others(ROOT)]:
         checks.check_page(path)
     checks.check_list_of_pictures()
     if options.check:

@@ -6,7 +6,12 @@ from pathlib import Path
 from markdown_text import Page, Span, for_python_markdown, replaced
 
 # Where files outside docs/ stand in the site.
-BESIDE = {"CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md", "SECURITY.md": "security.md"}
+BESIDE = {
+    "CHANGELOG.md": "changelog.md",
+    "CODE_OF_CONDUCT.md": "code-of-conduct.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "SECURITY.md": "security.md",
+}
 # Below docs/, but no pages: texts for the Asset Store, and a report's page that the site makes itself.
 LEFT_OUT = ("docs/listing/", "docs/report/index.html")
 HOME = "docs/index.md"
@@ -20,6 +25,12 @@ def sources(root: Path) -> list[Path]:
     """The Markdown files of the site, in the repository."""
     found = [path for path in sorted((root / "docs").rglob("*.md")) if not left_out(path.relative_to(root).as_posix())]
     return found + [root / name for name in BESIDE if (root / name).is_file()]
+
+
+def others(root: Path) -> list[Path]:
+    """Markdown files that the site has not, but that people read in the repository."""
+    found = [*root.glob("*.md"), *root.glob(".github/**/*.md"), *root.glob("addons/lobelight/**/*.md")]
+    return sorted(set(found) - set(sources(root)))
 
 
 def left_out(name: str) -> bool:
