@@ -27,6 +27,7 @@ const LAYERS: Dictionary[String, Array] = {
 const LAYER_LOBES := 4
 ## Of how many tables a check fits one again.
 const CHECK_STRIDE := 12
+const SavedForm := preload("res://addons/lobelight/runtime/table/saved_form.gd")
 
 var _arguments := CommandLine.new("bake-tables", OPTIONS)
 
@@ -139,6 +140,7 @@ func _bake(recipe: Dictionary, path: String) -> Dictionary:
 
 func _check(path: String) -> Dictionary:
 	var tables: LobeTableSet = null
+	SavedForm.checks_all = true
 	if FileAccess.file_exists(path):
 		tables = ResourceLoader.load(path) as LobeTableSet
 	if tables == null:

@@ -33,6 +33,18 @@ func test_set_has_the_documented_shape() -> void:
 	assert_int(tables.get_table_count()).is_equal(9)
 
 
+func test_what_is_baked_is_saved_with_its_checksum() -> void:
+	var path := "user://table_sets_test.res"
+	var result := LobeBaker.new().bake(SMALL)
+	ResourceSaver.save(LobeTableSet.from_baked(result), path)
+	var loaded: LobeTableSet = ResourceLoader.load(path, "", ResourceLoader.CACHE_MODE_IGNORE)
+	assert_str(loaded.get_problem()).is_empty()
+	# The same texels, baked again.
+	var again := LobeTableSet.from_baked(LobeBaker.new().bake(SMALL))
+	assert_int(loaded.checksum).is_equal(again.checksum).is_not_equal(0)
+	DirAccess.remove_absolute(path)
+
+
 func test_weights_of_interpolated_tables_add_up_to_the_albedo() -> void:
 	var tables := LobeTableSet.from_baked(LobeBaker.new().bake(SMALL))
 	for alpha: Vector2 in [Vector2(0.12, 0.12), Vector2(0.17, 0.12), Vector2(0.12, 0.17)]:

@@ -16,7 +16,14 @@ const FORMATS := [
 ]
 # What is wrong, and what is said of it.
 const CASES := [
-	["version", "The light was saved in form 7, this version reads up to 3: bake it again."],
+	[
+		"version",
+		(
+			"The light is in format 7, and this version of Lobelight reads up to 3: "
+			+ "update the addon, or bake the light again."
+		)
+	],
+	["no version", "The light is in format 0, which there is none of: bake it again."],
 	["no faces", "The light has 0 faces, not 6: bake it again."],
 	["five faces", "The light has 5 faces, not 6: bake it again."],
 	["no face", "no image of 8 texels"],
@@ -129,6 +136,8 @@ func _damage(light: LobeLight, damage: String) -> LobeLight:
 	match damage:
 		"version":
 			light.version = 7
+		"no version":
+			light.version = 0
 		"no faces":
 			light.faces = []
 		"five faces":

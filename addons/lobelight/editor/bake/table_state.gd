@@ -4,8 +4,17 @@ extends Object
 
 const Recipe := preload("bake_recipe.gd")
 
+## In the order in which they are set.
 const PROPERTIES: Array[StringName] = [
-	&"brdf", &"alpha", &"lobe_count", &"views", &"method", &"seed", &"image"
+	&"brdf",
+	&"alpha",
+	&"lobe_count",
+	&"views",
+	&"method",
+	&"seed",
+	&"image",
+	&"format",
+	&"checksum",
 ]
 const METADATA: Array[StringName] = [Recipe.META, Recipe.REPORT_META]
 # Figures of the bake that the inspector draws.

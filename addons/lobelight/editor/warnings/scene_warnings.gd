@@ -56,9 +56,15 @@ static func _without_environment() -> String:
 static func _of_properties(material: LobeMaterial3D) -> PackedStringArray:
 	var warnings: PackedStringArray = []
 	if material.table != null and not material.table.get_problem().is_empty():
-		warnings.append("The material's table has no lobes yet: open it and press Bake.")
+		var problem := material.table.get_file_problem()
+		if problem.is_empty():
+			problem = "The material's table has no lobes yet: open it and press Bake."
+		warnings.append(problem)
 	if material.table_set != null and not material.table_set.get_problem().is_empty():
-		warnings.append("The material's set of tables cannot be used: choose one of the addon's.")
+		var problem := material.table_set.get_file_problem()
+		if problem.is_empty():
+			problem = "The material's set of tables cannot be used: choose one of the addon's."
+		warnings.append(problem)
 	elif material.table == null and material.varies():
 		var tables := TableChoice.get_set(material)
 		var is_isotropic := material.get_shown_anisotropy() == 0.0

@@ -24,14 +24,14 @@ const _BINDING := "res://addons/lobelight/runtime/own_shaders/shader_binding.gd"
 # A unit vector's largest component is at least this.
 const _LEAST_COMPONENT := 0.57735027
 const _FACES := 6
-# Of the saved form. The first had no checksum and half floats only, the second no sources; lights
+# Of the saved format. The first had no checksum and half floats only, the second no sources; lights
 # without any still have that one.
 const _VERSION := 3
 const _VERSION_WITHOUT_SOURCES := 2
 # Of what is saved as single floats.
 const _ROUNDING := 1e-3
 
-## The form of what is saved.
+## The format of what is saved.
 @export_storage var version := _VERSION_WITHOUT_SOURCES
 ## The faces +X −X +Y −Y +Z −Z with all their levels, linear radiance in one of [constant FORMATS]:
 ## what is saved. Empty while the light is on the GPU only.
@@ -177,11 +177,16 @@ static func unbind(material: ShaderMaterial) -> void:
 
 ## Why the light cannot be shown, in a sentence; empty if it can.
 func get_problem() -> String:
-	if version < 1 or version > _VERSION:
+	if version > _VERSION:
 		return (
-			"The light was saved in form %d, this version reads up to %d: bake it again."
+			(
+				"The light is in format %d, and this version of Lobelight reads up to %d: "
+				+ "update the addon, or bake the light again."
+			)
 			% [version, _VERSION]
 		)
+	if version < 1:
+		return "The light is in format %d, which there is none of: bake it again." % version
 	if faces.is_empty() and cubemap != null:
 		return ""
 	if faces.size() != _FACES:

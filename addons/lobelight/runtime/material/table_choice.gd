@@ -23,6 +23,7 @@ const _FIRST_CHANGES := 1
 
 # Loaded sets by their paths: loading one takes a while.
 static var _sets: Dictionary[String, LobeTableSet] = {}
+static var _told: Dictionary[String, bool] = {}
 static var _mutex := Mutex.new()
 
 ## The lobes, where one table serves the whole surface; [code]null[/code] where widths vary or move,
@@ -334,6 +335,8 @@ func _choose_table(surface: LobeBaseMaterial3D) -> void:
 	else:
 		if _stand_in == null:
 			_stand_in = LobeTable.make_single_lobe()
+		if surface.table != null:
+			_tell(surface.table, surface.table.get_file_problem())
 		table = _stand_in
 	line.clear()
 	lobe_count = table.lobe_count
@@ -347,6 +350,7 @@ func _choose_table(surface: LobeBaseMaterial3D) -> void:
 ## The set that a material's lobes come from; null if it has a table of its own, or there is none.
 static func get_set(surface: LobeBaseMaterial3D) -> LobeTableSet:
 	if surface.table_set != null:
+		_tell(surface.table_set, surface.table_set.get_file_problem())
 		return surface.table_set if surface.table_set.get_problem().is_empty() else null
 	if surface.table != null:
 		return null
@@ -396,4 +400,21 @@ static func _get_ready_set(path: String) -> LobeTableSet:
 		_mutex.lock()
 		_sets[path] = found
 		_mutex.unlock()
+	if found != null and found.get_file_problem():
+		_tell(found, found.get_file_problem())
+		return null
 	return found
+
+
+# Of a file that cannot be used, once. Tables that are not baked yet are nobody's mistake.
+static func _tell(tables: Resource, problem: String) -> void:
+	if problem.is_empty():
+		return
+	var named := tables.resource_path if tables.resource_path else "Table"
+	var sentence := "LobeMaterial3D: %s: %s" % [named, problem]
+	_mutex.lock()
+	var is_new := not _told.has(sentence)
+	_told[sentence] = true
+	_mutex.unlock()
+	if is_new:
+		push_error(sentence)

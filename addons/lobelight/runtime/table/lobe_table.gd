@@ -21,12 +21,13 @@ const MAX_VIEW_ANGLE := deg_to_rad(89.4)
 const MAX_LOBES := 32
 
 const PlaneLobes := preload("plane_lobes.gd")
+const SavedForm := preload("saved_form.gd")
 
 ## The name of the BRDF that was fitted.
 @export var brdf := "":
 	set(value):
 		brdf = value
-		emit_changed()
+		_follow_change()
 ## Widths of the BRDF along the tangent and the bitangent.
 @export var alpha := Vector2(0.1, 0.1):
 	set(value):
@@ -46,12 +47,12 @@ const PlaneLobes := preload("plane_lobes.gd")
 @export var method := "":
 	set(value):
 		method = value
-		emit_changed()
+		_follow_change()
 ## The seed of the fit.
 @warning_ignore("shadowed_global_identifier") @export var seed := 0:
 	set(value):
 		seed = value
-		emit_changed()
+		_follow_change()
 ## The lobes, in [constant Image.FORMAT_RGBAH]. Column t holds the views of elevation t, row
 ## [code]k * views.y + p[/code] lobe k of azimuth p. A texel is (slope_x / alpha_x,
 ## slope_y / alpha_y, log2(kappa (o.h)), weight), the slopes being those of the half-vector h
@@ -63,7 +64,24 @@ const PlaneLobes := preload("plane_lobes.gd")
 	set(value):
 		image = value
 		_invalidate()
+## The format of the file; it is written in the newest one. A newer file than this version of
+## Lobelight knows is not used, see [method get_problem].
+@export_storage var format := 1:
+	get:
+		return _saved.format
+	set(value):
+		_saved.format = value
+		_invalidate()
+## The checksum of all the above, which files have from format 2 on; 0 for none. It is that of the
+## table as it is now, but for damaged tables, which keep that of their file.
+@export_storage var checksum := 0:
+	get:
+		return _saved.expected if _saved.expected != 0 else _find_checksum()
+	set(value):
+		_saved.expected = value
+		_invalidate()
 
+var _saved := SavedForm.new()
 var _texture: ImageTexture
 # Loader threads share tables.
 var _mutex := Mutex.new()
@@ -148,6 +166,11 @@ static func make_single_lobe(width := 0.2) -> LobeTable:
 
 ## What keeps the table from being used, in a sentence; empty if nothing does.
 func get_problem() -> String:
+	var problem := get_file_problem()
+	return problem if problem else _find_problem()
+
+
+func _find_problem() -> String:
 	if lobe_count < 1 or lobe_count > MAX_LOBES:
 		return "A table has 1 to %d lobes, this one has %d." % [MAX_LOBES, lobe_count]
 	if views.x < 2 or views.y < 1:
@@ -169,6 +192,12 @@ func get_problem() -> String:
 			% [lobe_count, views.x, views.y, expected.x, expected.y]
 		)
 	return ""
+
+
+## Why the file that the table was loaded from cannot be used, in a sentence: its format is too new,
+## or it is damaged. Empty if it can.
+func get_file_problem() -> String:
+	return _saved.get_problem("table")
 
 
 ## Whether the table is of a BRDF that looks the same from all azimuths.
@@ -318,4 +347,15 @@ func _invalidate() -> void:
 	_mutex.lock()
 	_texture = null
 	_mutex.unlock()
+	_follow_change()
+
+
+func _follow_change() -> void:
+	_saved.settle(_find_checksum, image)
 	emit_changed()
+
+
+func _find_checksum() -> int:
+	# Vectors are longer in engines of double precision.
+	var widths := PackedFloat32Array([alpha.x, alpha.y])
+	return SavedForm.find_checksum([brdf, widths, lobe_count, views, method, seed], image)

@@ -16,6 +16,7 @@ extends Resource
 ## The most [member widths].
 const MAX_WIDTHS := 64
 
+const SavedForm := preload("saved_form.gd")
 const WidthsTexture := preload("widths_texture.gd")
 
 # Shared tables' widths are rounded to this part of an octave, 0.27 %.
@@ -25,7 +26,7 @@ const _SHARED_STEPS := 256.0
 @export var brdf := "":
 	set(value):
 		brdf = value
-		emit_changed()
+		_follow_change()
 ## The widths on each axis, rising.
 @export var widths := PackedFloat64Array():
 	set(value):
@@ -46,7 +47,7 @@ const _SHARED_STEPS := 256.0
 @warning_ignore("shadowed_global_identifier") @export var seed := 0:
 	set(value):
 		seed = value
-		emit_changed()
+		_follow_change()
 ## The tables' images (see [member LobeTable.image]) one below the other: the anisotropic tables,
 ## that of widths x and y, x ≥ y, counted from 0, being number [code]x * (x + 1) / 2 + y[/code],
 ## then the isotropic tables of all widths.
@@ -54,7 +55,24 @@ const _SHARED_STEPS := 256.0
 	set(value):
 		image = value
 		_invalidate()
+## The format of the file; it is written in the newest one. A newer file than this version of
+## Lobelight knows is not used, see [method get_problem].
+@export_storage var format := 1:
+	get:
+		return _saved.format
+	set(value):
+		_saved.format = value
+		_invalidate()
+## The checksum of all the above, which files have from format 2 on; 0 for none. It is that of the
+## set as it is now, but for damaged sets, which keep that of their file.
+@export_storage var checksum := 0:
+	get:
+		return _saved.expected if _saved.expected != 0 else _find_checksum()
+	set(value):
+		_saved.expected = value
+		_invalidate()
 
+var _saved := SavedForm.new()
 # Tables in use, by their rounded widths, and textures, by whether they are isotropic.
 var _shared: Dictionary[Vector2i, WeakRef] = {}
 var _textures: Dictionary[bool, WeakRef] = {}
@@ -96,7 +114,16 @@ func get_problem() -> String:
 	return problem
 
 
+## Why the file that the set was loaded from cannot be used, in a sentence: its format is too new,
+## or it is damaged. Empty if it can.
+func get_file_problem() -> String:
+	return _saved.get_problem("set")
+
+
 func _find_problem() -> String:
+	var problem := get_file_problem()
+	if problem:
+		return problem
 	if lobe_count < 1 or lobe_count > LobeTable.MAX_LOBES:
 		return "A set has 1 to %d lobes, this one has %d." % [LobeTable.MAX_LOBES, lobe_count]
 	if views.x < 2 or views.y < 1:
@@ -104,7 +131,7 @@ func _find_problem() -> String:
 			"A set has at least 2 elevations and 1 azimuth, this one has %d and %d."
 			% [views.x, views.y]
 		)
-	var problem := _get_widths_problem()
+	problem = _get_widths_problem()
 	if problem.is_empty():
 		problem = _get_image_problem()
 	return problem
@@ -245,7 +272,16 @@ func _invalidate() -> void:
 	_shared.clear()
 	_textures.clear()
 	_mutex.unlock()
+	_follow_change()
+
+
+func _follow_change() -> void:
+	_saved.settle(_find_checksum, image)
 	emit_changed()
+
+
+func _find_checksum() -> int:
+	return SavedForm.find_checksum([brdf, widths, lobe_count, views, seed], image)
 
 
 func _get_widths_problem() -> String:
