@@ -200,6 +200,10 @@ refuses "package, an unknown option" "--colour" package --colour red
 refuses "package, every library and none" "--no-library" package --all --no-library
 refuses "package, an output with the wrong ending" "x.tar" package --out x.tar
 refuses "package, an output in a missing folder" "missing/x.zip" package --out missing/x.zip
+refuses "release, an unknown option" "--colour" release --colour
+refuses "release, a check with an output" "--out" release --check --out release
+refuses "release, an output in a missing folder" "missing/release" release --out missing/release
+refuses "release, figures in a missing folder" "missing/x.json" release --check --json missing/x.json
 refuses "android, an unknown option" "--colour" android --colour red
 refuses "android, an output that is a file" "is not a folder" android --out "$environment"
 refuses "android, JSON in a missing folder" "missing/a.json" android --json missing/a.json

@@ -25,6 +25,7 @@ LICENCES = "bin/LICENCES.txt"
 PATTERNS = [
     "plugin.cfg",
     "LICENSE",
+    "README.md",
     "lobelight.gdshaderinc",
     "lobelight.gdshaderinc.uid",
     "icons/*.svg",

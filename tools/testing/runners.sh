@@ -61,7 +61,7 @@ jobs_of() {
   case $1 in
     cpp) printf '%s\n' cpp cpp_sanitized fuzz ;;
     stability) printf '%s\n' stability stability_changes ;;
-    commands) printf '%s\n' commands setup report report_smoke bench_runtime ;;
+    commands) printf '%s\n' commands setup report release report_smoke bench_runtime ;;
     stereo) printf '%s\n' stereo_mobile stereo_forward_plus ;;
     export) printf '%s\n' export_diet export_pictures export_package export_android export_web ;;
     render)
@@ -239,6 +239,12 @@ run_report() {
   judge report
   run_logged accuracy-report in_time "$PYTHON" "$ROOT/tests/commands/accuracy_report_test.py"
   judge accuracy-report
+}
+
+# What ./dev release refuses and writes.
+run_release() {
+  run_logged release in_time "$PYTHON" "$ROOT/tests/commands/release_test.py"
+  judge release
 }
 
 # ./dev report from end to end, small.
