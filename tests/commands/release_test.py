@@ -35,7 +35,7 @@ The first release.
 
 ### Added
 
-- One thing, whose line
+- One thing, whose [line](docs/line.md)
   goes on.
 - Another.
 

@@ -42,7 +42,9 @@ def section(text, version):
 
 
 def notes(body):
-    """The same lines as a page of its own: paragraphs and points on one line each, as pages of releases keep line breaks."""
+    """The same lines as a page of its own: paragraphs and points on one line each, as pages of releases keep line breaks, and
+    names of the repository's files without their links, which lead nowhere from there."""
+    body = re.sub(r"\[([^\]]+)\]\((?!\w+:)[^)]*\)", r"\1", body)
     lines = []
     for line in body.splitlines():
         starts = not line.strip() or re.match(r"\s*([-*#>|]|\d+\.)", line)
