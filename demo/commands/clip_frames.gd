@@ -24,7 +24,7 @@ func _work(out: String) -> void:
 	viewport.use_hdr_2d = true
 	viewport.size = SIZE
 	var demo: DemoRoot = _add_demo(viewport)
-	var interface: CanvasItem = demo.get_node("Interface")
+	var interface: CanvasLayer = demo.get_node("Interface")
 	interface.hide()
 	demo.right_method = Methods.Method.STOCK
 	_arguments.fail_if(await demo.prepare_light())
