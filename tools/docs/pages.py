@@ -29,8 +29,8 @@ def sources(root: Path) -> list[Path]:
 
 def others(root: Path) -> list[Path]:
     """Markdown files that the site has not, but that people read in the repository."""
-    found = [*root.glob("*.md"), *root.glob(".github/**/*.md"), *root.glob("addons/lobelight/**/*.md")]
-    return sorted(set(found) - set(sources(root)))
+    patterns = ("*.md", ".github/**/*.md", "addons/lobelight/**/*.md", "docs/listing/*.md")
+    return sorted({path for pattern in patterns for path in root.glob(pattern)} - set(sources(root)))
 
 
 def left_out(name: str) -> bool:
