@@ -217,10 +217,12 @@ run_commands() {
   judge commands
 }
 
-# What ./dev docs finds in bad pages, and the site itself.
+# What ./dev docs finds in bad pages, the figures of good ones, and the site itself.
 run_docs() {
   run_logged docs-checks in_time "$PYTHON" "$ROOT/tests/commands/docs_test.py"
   judge docs-checks
+  run_logged docs-figures in_time "$PYTHON" "$ROOT/tests/commands/docs_figures_test.py"
+  judge docs-figures
   run_logged docs in_time bash "$ROOT/tools/commands/docs.sh" --check --out "$RESULTS/docs-site"
   judge docs
 }
