@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# Makes the guide's clicks in the running editor, on a display of its own, and takes its pictures: pictures.sh [FOLDER [guide|room]]
+# Makes the guide's clicks in the running editor, on a display of its own, and takes its pictures: pictures.sh [FOLDER [guide|hand|room]]
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 
 folder=$(realpath -m -- "${1:-$ROOT/docs/guide/pictures}")
-declare -A pages=([guide]=README.md [room]=rooms.md)
+declare -A pages=([guide]=README.md [hand]=README.md [room]=rooms.md)
+# How a page says the number of clicks.
+declare -A words=([guide]="clicks" [hand]="clicks by hand" [room]="clicks")
 walks=("${!pages[@]}")
 if [[ -n ${2:-} ]]; then
   is_one_of "$2" "${walks[@]}" || die "pictures.sh: there is no walk '$2'; the walks are ${walks[*]}"
@@ -24,11 +26,11 @@ go() {
   rm -rf "$project"/{tests,addons/editor_tests,addons/gdUnit4}
   cp -r "$ROOT/tools/guide/camera" "$project/addons/guide_camera"
   sed -i 's|^enabled=.*|enabled=PackedStringArray("res://addons/guide_camera/plugin.cfg")|' "$project/project.godot"
-  step "Taking the pictures of docs/guide/${pages[$walk]}" timeout 600 bash "$ROOT/tools/lib/with_display.sh" "$GODOT" \
+  step "Making the clicks of docs/guide/${pages[$walk]}, $walk" timeout 600 bash "$ROOT/tools/lib/with_display.sh" "$GODOT" \
     --path "$project" --editor --audio-driver Dummy --rendering-method gl_compatibility --rendering-driver opengl3 \
     --single-window ++ --guide-pictures "$work/pictures" "$walk"
   clicks=$(<"$work/pictures/clicks")
-  grep -q "^$clicks clicks\." "$ROOT/docs/guide/${pages[$walk]}" \
+  grep -q "^$clicks ${words[$walk]}\." "$ROOT/docs/guide/${pages[$walk]}" \
     || die "pictures.sh: it took $clicks clicks, which is not what docs/guide/${pages[$walk]} says"
 }
 

@@ -1,10 +1,11 @@
 @tool
 extends EditorPlugin
 ## Goes through a page of the guide in the running editor with the mouse, takes a picture of each
-## step and quits: "++ --guide-pictures FOLDER guide|room". Fails where something is not where the
-## page says.
+## step and quits: "++ --guide-pictures FOLDER guide|hand|room". Fails where something is not where
+## the page says.
 
 const Finder := preload("finder.gd")
+const HandWalk := preload("hand_walk.gd")
 const Mouse := preload("mouse.gd")
 const RoomWalk := preload("room_walk.gd")
 const SphereWalk := preload("sphere_walk.gd")
@@ -34,15 +35,18 @@ func _run() -> void:
 	get_window().mode = Window.MODE_WINDOWED
 	get_window().size = SIZE
 	await _mouse.wait(1.5)
-	if _walk == "room":
-		EditorInterface.set_plugin_enabled(SphereWalk.ADDON, true)
-		await _count(RoomWalk.new(_mouse, _take))
-	else:
-		await _count(SphereWalk.new(_mouse, _take))
-		var table := TableWalk.new(_mouse, _take)
-		await table.go()
-		await _show_import()
-		await _show_help()
+	match _walk:
+		"room":
+			EditorInterface.set_plugin_enabled(RoomWalk.ADDON, true)
+			await _count(RoomWalk.new(_mouse, _take))
+		"hand":
+			await _count(HandWalk.new(_mouse, _take))
+		_:
+			await _count(SphereWalk.new(_mouse, _take))
+			var table := TableWalk.new(_mouse, _take)
+			await table.go()
+			await _show_import()
+			await _show_help()
 	await _wait_for_files()
 	get_tree().quit(mini(_mouse.problems.size(), 1))
 

@@ -1,19 +1,40 @@
 @tool
 extends "walk.gd"
-## Goes on from the brushed sphere: the report of the scene, and a table for its material.
+## Goes on from the brushed sphere: the scene's light, its report, and a table for the material.
 
 # Of a tenth of a second: a reference takes its time on a busy machine.
 const _TURNS := 3000
 
 
 func go() -> void:
+	await _look_at_environment()
 	await _report()
+	await _open_material()
 	await _unfold("BRDF")
 	await _choose_resource(&"table", "LobeTable")
 	await _mouse.click(Finder.button(Finder.property(&"table"), ""), "the table")
 	await _mouse.wait(1.0)
 	await _bake()
 	await _see()
+
+
+func _look_at_environment() -> void:
+	await _select("LobeEnvironment3D")
+	await _mouse.wait(2.0)
+	await _take.call("2_environment")
+
+
+func _open_material() -> void:
+	await _select("BrushedSphere")
+	await _unfold("Geometry")
+	await _mouse.click(Finder.button(Finder.property(&"material_override"), ""), "the material")
+	await _mouse.wait(1.0)
+
+
+func _select(node: String) -> void:
+	var tree: Tree = Finder.of_class(Finder.of_class(_root, "SceneTreeEditor"), "Tree")
+	await _mouse.choose_item(tree, Finder.item(tree.get_root(), node), 0, node)
+	await _mouse.wait(0.5)
 
 
 func _report() -> void:

@@ -5,6 +5,8 @@ extends RefCounted
 const Finder := preload("finder.gd")
 const Mouse := preload("mouse.gd")
 
+const ADDON := "lobelight"
+
 var _mouse: Mouse
 var _take: Callable
 var _root: Window = EditorInterface.get_base_control().get_window()
@@ -55,3 +57,21 @@ func _unfold(title: String) -> void:
 	await _mouse.scroll_to(EditorInterface.get_inspector(), section)
 	await _mouse.click_at(_mouse.find_rect(section).position + Vector2(60.0, 12.0), section, title)
 	await _mouse.wait(0.5)
+
+
+# The plugin, in the project's settings, which stay open.
+func _enable() -> void:
+	await _open_menu("Project")
+	await _mouse.choose(_root, "Project Settings...")
+	await _mouse.wait(0.5)
+	var settings := Finder.of_class(_root, "ProjectSettingsEditor")
+	await _mouse.choose_tab(Finder.tabs(settings, "Plugins"), "Plugins")
+	var list: Tree = Finder.of_class(Finder.of_class(settings, "EditorPluginSettings"), "Tree")
+	await _mouse.choose_item(list, Finder.item(list.get_root(), "Lobelight", 1), 0, "On")
+	await _mouse.wait(1.0)
+	_expect(EditorInterface.is_plugin_enabled(ADDON), "enabled plugin")
+
+
+func _close_settings() -> void:
+	var settings := Finder.of_class(_root, "ProjectSettingsEditor")
+	await _mouse.click(Finder.button(settings, "Close"), "Close")
