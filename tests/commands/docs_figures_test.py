@@ -69,9 +69,14 @@ INSTRUCTIONS: dict[str, list[tuple[str, list[tuple[str, str]]]]] = {
     "docs/own-shaders.md": [
         on(
             A630,
-            "{} on an Adreno 630, with an anisotropic one and a flow map {}, `StandardMaterial3D`'s metal {}",
-            "gmm8_roughness",
-            "gmm8_widths",
+            "Adreno 630: {} for `lobelight_reflection` with `LOBELIGHT_ISOTROPIC`, {} with `LOBELIGHT_QUALITY` 8, and {} with 24,",
+            "own_isotropic",
+            "own_8",
+            "own",
+        ),
+        on(
+            A630,
+            "`StandardMaterial3D`'s metal takes {}",
             "stock",
         ),
     ],

@@ -9,7 +9,7 @@ matplotlib.rcParams.update({"svg.hashsalt": "lobelight", "font.size": 9})
 import matplotlib.pyplot as plt  # noqa: E402
 from gpus import GPUS  # noqa: E402
 
-COLOURS = {"empty": "#999999", "stock": "#5b7fa6", "gmm": "#2f8f5b", "fis": "#b5633c"}
+COLOURS = {"empty": "#999999", "stock": "#5b7fa6", "gmm": "#2f8f5b", "line": "#2f8f5b", "own": "#2f8f5b", "fis": "#b5633c"}
 OTHER_RIVALS = "#8a6fb0"
 
 
