@@ -14,6 +14,7 @@ sys.path.insert(0, str(ROOT / "tools/docs"))
 sys.dont_write_bytecode = True
 
 import browser_check  # noqa: E402
+import class_pages  # noqa: E402
 import classes  # noqa: E402
 import site_build  # noqa: E402
 from bbcode import Converter  # noqa: E402
@@ -183,6 +184,29 @@ def test_undescribed() -> list[str]:
     return problems + ([] if said == expected else [f"found {said}"])
 
 
+def test_class_page() -> list[str]:
+    """What a class inherits from another one is on its page, and values have their names."""
+    derived = ElementTree.fromstring(
+        """<class name="LobeTable" inherits="LobeTask"><brief_description>Short.</brief_description>
+        <methods><method name="mix" qualifiers="static"><return type="LobeTask[]" /><param index="0" name="by" type="float"
+        default="0.5" /><description>Mixes.</description></method></methods>
+        <members><member name="source" type="int" enum="LobeTask.Source" default="0">Whence.</member></members></class>"""
+    )
+    base = a_class("LobeTask")
+    base.find("constants/constant").set("enum", "Source")
+    page = class_pages.ClassPage("LobeTable", {"LobeTable": derived, "LobeTask": base}).markdown()
+    wanted = [
+        "# LobeTable\n\nInherits [LobeTask](LobeTask.md).\n\nShort.",
+        "From [LobeTask](LobeTask.md): [`size`](LobeTask.md#property-size)",
+        "Type: [`LobeTask.Source`](LobeTask.md#enum-Source), default: `SKY`\n\nWhence.",
+        "static func mix(by: float = 0.5) -> Array[LobeTask]",
+        "From [LobeTask](LobeTask.md): [`turn`](LobeTask.md#method-turn)",
+        "## Signals\n\nFrom [LobeTask](LobeTask.md): [`rebuilt`](LobeTask.md#signal-rebuilt)",
+    ]
+    problems = [f"there is not {text!r}" for text in wanted if text not in page]
+    return problems + (["it shows what is not public"] if "_process" in page or "Helper" in page else [])
+
+
 def test_bbcode() -> list[str]:
     convert = Converter("LobeTable", lambda name: f"{name}.md" if name.startswith("Lobe") else "").markdown
     pairs = {
@@ -283,6 +307,7 @@ TESTS: dict[str, Callable[[], list[str]]] = {
     "the list of pictures": test_list_of_pictures,
     "the navigation": test_navigation,
     "members without description": test_undescribed,
+    "the page of a class": test_class_page,
     "BBCode": test_bbcode,
     "lists": test_lists,
     "links in code": test_code_is_no_prose,

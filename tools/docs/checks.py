@@ -11,9 +11,14 @@ from markdown_text import Page, Span
 
 # Folders of the top level, whose paths in a page name files of the repository.
 TOP_FOLDERS = (r"\.github", "addons", "bake", "demo", "docs", "gdextension", "tests", "tools")
-# A path in code, as far as it is literal; what follows a space, a colon or a bracket is no part of it.
-REPOSITORY_PATH = re.compile(rf"(?P<path>(?:{'|'.join(TOP_FOLDERS)})/[\w./*@+-]*)(?P<after>.?)")
-RESOURCE_PATH = re.compile(rf"res://(?P<path>(?:{'|'.join(TOP_FOLDERS)})/[\w./*@+-]*)(?P<after>.?)")
+# A path in code, as far as it is literal, and not the end of a longer one.
+LITERAL_PATH = rf"(?P<path>(?:{'|'.join(TOP_FOLDERS)})/[\w./*@+-]*)(?P<after>.?)"
+REPOSITORY_PATH = re.compile(rf"(?<![\w/.-])(?:res://)?{LITERAL_PATH}")
+RESOURCE_PATH = re.compile(rf"res://{LITERAL_PATH}")
+# What follows a path that goes on with something to fill in.
+GOES_ON = ("<", "{", "…", "[", "$")
+# A command's option before the name of a file that it writes.
+WRITTEN = re.compile(r"--(?:out|json|export|pictures)[= ]+(?:res://)?$")
 # What commands write, and what users have.
 MADE = re.compile(r"(?:^|/)(?:build|bin)(?:/|$)|^addons/(?!lobelight)|\.\.\.")
 # brdf_NAME_test.cpp: a place to fill.
@@ -107,16 +112,9 @@ class Checks:
 
     def check_paths(self, page: Page, code: Span, pattern: re.Pattern[str]) -> None:
         for match in pattern.finditer(code.text):
-            before = code.text[: match.start()]
-            # Inside a longer path, or an option's value that a user gives, or one with a place to fill.
-            if before[-1:].isalnum() or before[-1:] in ("/", "_", "-", "."):
-                if not before.endswith("res://"):
-                    continue
             path = match["path"].rstrip(".")
-            if MADE.search(path) or PLACE_TO_FILL.search(path) or match["after"] in ("<", "{", "…", "[", "$"):
-                continue
-            # What a command is told to write need not be there.
-            if re.search(r"--(?:out|json|export|pictures)[= ]+$", before):
+            to_fill = PLACE_TO_FILL.search(path) or match["after"] in GOES_ON
+            if to_fill or MADE.search(path) or WRITTEN.search(code.text[: match.start("path")]):
                 continue
             self.counts["paths"] += 1
             there = matches(self.root, path) if "*" in path else exists(self.root, self.root / path)

@@ -18,14 +18,14 @@ FOLDER = "classes"
 class ClassPage:
     """Writes the page of one class."""
 
-    def __init__(self, document: ElementTree.Element, known: set[str]):
-        self.document = document
-        self.name = document.get("name", "")
-        self.known = known
+    def __init__(self, name: str, found: dict[str, ElementTree.Element]):
+        self.document = found[name]
+        self.name = name
+        self.found = found
         self.convert = Converter(self.name, self.page_of)
 
     def page_of(self, name: str) -> str:
-        return f"{name}.md" if name in self.known else ""
+        return f"{name}.md" if name in self.found else ""
 
     def markdown(self) -> str:
         parts = [f"# {self.name}", self.lineage(), self.text("brief_description"), self.text("description")]
@@ -56,14 +56,16 @@ class ClassPage:
         return self.convert.class_link(name)
 
     def section(self, kind: str) -> list[str]:
-        path, heading = SECTIONS[kind]
-        elements = sorted(filter(classes.is_public, self.document.findall(path)), key=lambda element: element.get("name", ""))
-        if not elements:
+        elements = elements_of(self.document, kind)
+        inherited = [base for base in classes.line_of(self.name, self.found)[1:] if elements_of(self.found[base], kind)]
+        if not elements and not inherited:
             return []
-        parts = [f"## {heading}"]
+        parts = [f"## {SECTIONS[kind][1]}"]
         if len(elements) > 3:
-            links = (f"[`{element.get('name')}`](#{anchor(kind, element.get('name', ''))})" for element in elements)
-            parts.append(" · ".join(links))
+            parts.append(links_to(elements, kind, ""))
+        for base in inherited:
+            page = self.page_of(base)
+            parts.append(f"From [{base}]({page}): {links_to(elements_of(self.found[base], kind), kind, page)}")
         for element in elements:
             name = element.get("name", "")
             parts.append(f"### {name} {{#{anchor(kind, name)}}}")
@@ -75,7 +77,7 @@ class ClassPage:
         name = element.get("name", "")
         if kind == "member":
             kind_of_value = self.type_link(element.get("type"), element.get("enum"))
-            default = element.get("default")
+            default = self.name_of_value(element.get("enum"), element.get("default"))
             return f"Type: {kind_of_value}" + (f", default: {code(default)}" if default is not None else "")
         parameters = [
             f"{parameter.get('name')}: {plain_type(parameter)}"
@@ -91,6 +93,15 @@ class ClassPage:
         result = element.find("return")
         returned = plain_type(result) if result is not None else "void"
         return fenced(f"{before}func {name}({', '.join(parameters)}) -> {returned}")
+
+    def name_of_value(self, enum: str | None, value: str | None) -> str | None:
+        """Of an enumeration of these classes, the constant; else the value itself."""
+        for document in self.found.values():
+            for constant in document.findall("constants/constant"):
+                if enum and constant.get("value") == value:
+                    if enum in (constant.get("enum"), f"{document.get('name')}.{constant.get('enum')}"):
+                        return constant.get("name")
+        return value
 
     def constants(self) -> list[str]:
         elements = list(filter(classes.is_public, self.document.findall("constants/constant")))
@@ -113,13 +124,23 @@ class ClassPage:
         return parts
 
 
+def elements_of(document: ElementTree.Element, kind: str) -> list[ElementTree.Element]:
+    """The public members of a kind, by their names."""
+    found = filter(classes.is_public, document.findall(SECTIONS[kind][0]))
+    return sorted(found, key=lambda element: element.get("name", ""))
+
+
+def links_to(elements: list[ElementTree.Element], kind: str, page: str) -> str:
+    return " · ".join(f"[`{element.get('name')}`]({page}#{anchor(kind, element.get('name', ''))})" for element in elements)
+
+
 def plain_type(element: ElementTree.Element) -> str:
     name = element.get("enum") or element.get("type") or "Variant"
     return f"Array[{name[:-2]}]" if name.endswith("[]") else name
 
 
 def fenced(text: str) -> str:
-    return f"```gdscript\n{text}\n```"
+    return f"``` {{ .gdscript .no-copy }}\n{text}\n```"
 
 
 def index(found: dict[str, ElementTree.Element]) -> str:
@@ -150,7 +171,7 @@ def write(found: dict[str, ElementTree.Element], folder: Path) -> list[Path]:
         for name in names:
             if name in found:
                 pages.append(folder / f"{name}.md")
-                pages[-1].write_text(ClassPage(found[name], set(found)).markdown(), encoding="utf-8")
+                pages[-1].write_text(ClassPage(name, found).markdown(), encoding="utf-8")
     return pages
 
 

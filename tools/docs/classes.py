@@ -70,10 +70,24 @@ def count_members(found: dict[str, ElementTree.Element]) -> int:
     return sum(1 for document in found.values() for kind in kinds for _element in filter(is_public, document.iter(kind)))
 
 
-def members(found: dict[str, ElementTree.Element]) -> dict[str, dict[str, str]]:
-    """For each class, what each name of a member is: "member", "method", "signal" or "constant"."""
+def line_of(name: str, found: dict[str, ElementTree.Element]) -> list[str]:
+    """A class and those of these that it inherits from, the nearest first."""
+    line = []
+    while name in found:
+        line.append(name)
+        name = found[name].get("inherits", "")
+    return line
+
+
+def members(found: dict[str, ElementTree.Element]) -> dict[str, dict[str, tuple[str, str]]]:
+    """For each class, for each name of a member: the class that has it, and "member", "method", "signal" or "constant"."""
     kinds = ("constant", "signal", "method", "member")
     return {
-        name: {element.get("name", ""): kind for kind in kinds for element in filter(is_public, document.iter(kind))}
-        for name, document in sorted(found.items())
+        name: {
+            element.get("name", ""): (owner, kind)
+            for owner in reversed(line_of(name, found))
+            for kind in kinds
+            for element in filter(is_public, found[owner].iter(kind))
+        }
+        for name in sorted(found)
     }

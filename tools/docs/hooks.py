@@ -72,12 +72,12 @@ def _linked(match, here, known, config):
     name = NAME.fullmatch(match["code"] or "")
     if not name or name["owner"] not in known or known[name["owner"]] == here:
         return match[0]
-    page = relative(known[name["owner"]].removesuffix(".md") + ".html", here)
-    fragment = ""
+    owner, fragment = name["owner"], ""
     if name["member"]:
-        members = config.extra["members"].get(name["owner"], {})
-        kind = members.get(name["member"])
+        # The class that it is inherited from, perhaps.
+        owner, kind = config.extra["members"].get(owner, {}).get(name["member"], (owner, ""))
         if not kind:
             return match[0]
         fragment = f"#{anchor(kind, name['member'])}"
+    page = relative(known[owner].removesuffix(".md") + ".html", here)
     return f'<a href="{page}{fragment}">{match[0]}</a>'

@@ -79,7 +79,7 @@ def build(root: Path, found: dict[str, ElementTree.Element], work: Path, fonts: 
     config["site_dir"] = str(work / "site")
     config["hooks"] = [str(Path(__file__).with_name("hooks.py"))]
     config["nav"] = filled(config["nav"], names, class_pages.navigation(found))
-    config["extra"] = {**config.get("extra", {}), "members": classes.members(found)}
+    config["extra"] = {**config.get("extra", {}), "members": {name: {member: list(entry) for member, entry in of_class.items()} for name, of_class in classes.members(found).items()}}
     (work / "mkdocs.yml").write_text(yaml.safe_dump(config, sort_keys=False, allow_unicode=True), encoding="utf-8")
     done = subprocess.run(
         [sys.executable, "-m", "mkdocs", "build", "--quiet", "--config-file", work / "mkdocs.yml"],
