@@ -216,6 +216,8 @@ refuses "web, headers without a server" "--isolated goes with --serve" web --iso
 refuses "web-check, an unknown option" "--colour" web-check --colour red
 refuses "web-check, an output that is a file" "is not a folder" web-check --out "$environment"
 refuses "web-check, JSON in a missing folder" "missing/a.json" web-check --json missing/a.json
+refuses "crosscheck-gltf, an unknown option" "--colour" crosscheck-gltf --colour red
+refuses "crosscheck-gltf, an unknown renderer" "there is no renderer 'metal'" crosscheck-gltf --renderer metal
 refuses "docs, an unknown option" "--colour" docs --colour red
 refuses "docs, an output that is a file" "is not a folder" docs --out "$environment"
 refuses "docs, an output that holds something else" "something else than a site" docs --out "$root/demo"
