@@ -30,7 +30,8 @@ TOO_WIDE = """() => {
 SEARCHED = "anisotropy"
 
 
-def check(site: Path, seconds: float = 30) -> list[Finding]:
+def check(site: Path, seconds: float = 120) -> list[Finding]:
+    """`seconds`: how long a search may take. Both that and opening a page are quick where the machine has nothing else to do."""
     found: list[Finding] = []
     with browser.serve(site) as address, browser.start_browser() as program:
         context = program.new_context(viewport={"width": PHONE[0], "height": PHONE[1]})
@@ -43,6 +44,7 @@ def check(site: Path, seconds: float = 30) -> list[Finding]:
                 asked.append(route.request.url)
                 route.abort()
 
+        context.set_default_timeout(120_000)
         context.route("**/*", only_here)
         page = context.new_page()
         said: list[str] = []
