@@ -38,7 +38,13 @@ INCLUDED = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<(godot_cpp/[^>]+)>)', re
 IMPORTED = re.compile(r"^\s*(?:from (\w+) import\b|import (\w+(?:, *\w+)*))", re.MULTILINE)
 SOURCED = re.compile(r'^\s*(?:source|\.)\s+"([^\n]*?)"(?:\s|$)', re.MULTILINE)
 RESOURCE = re.compile(r'\[ext_resource [^\]]*path="res://([^"]+)"')
-INCLUDE_FOLDERS = ("gdextension/src", "gdextension/bench", "gdextension/fuzz", "gdextension/tests", "gdextension/binding/include")
+INCLUDE_FOLDERS = (
+    "gdextension/src",
+    "gdextension/bench",
+    "gdextension/fuzz",
+    "gdextension/tests",
+    "gdextension/binding/include",
+)
 
 
 def list_files(root: Path) -> list[str]:

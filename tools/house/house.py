@@ -56,12 +56,16 @@ def look(root: Path) -> tuple[dict, dict[str, str]]:
     uncalled = references.find_uncalled(house, entries)
     wrong = [f"a cycle: {' -> '.join([*cycle, cycle[0]])}" for cycle in cycles]
     wrong += [f"nobody refers to {path}: remove it, or say in {references.ENTRIES} who takes it" for path in orphans]
-    wrong += [f"{place}: nobody names this function: remove it, or say in {references.ENTRIES} who calls it" for place in uncalled]
+    wrong += [
+        f"{place}: nobody names this function: remove it, or say in {references.ENTRIES} who calls it" for place in uncalled
+    ]
     wrong += [f"{references.ENTRIES}: no file is named {pattern}" for pattern in entries.stale(house)]
     for name, way in all_ways.items():
         wrong += [f"{WAYS[name]}: {gap}" for gap in ways.find_gaps(way, house)]
     wrong += [f"{BOXES}: no file is in the box {name}" for name in boxes.empty]
-    wrong += [f"{BOXES}: {path} is in no box" for prefix in DRAWN for path in boxes.outside(house, prefix) if path != EVERYBODYS]
+    wrong += [
+        f"{BOXES}: {path} is in no box" for prefix in DRAWN for path in boxes.outside(house, prefix) if path != EVERYBODYS
+    ]
     drawn = picture.draw(boxes, {name: [path for path, _what in way] for name, way in all_ways.items()})
     code = [path for path in house.files if path.endswith(CODE)]
     longest = sorted(code, key=lambda path: (-count_lines(house, path), path))[:5]
@@ -117,7 +121,9 @@ def write(path: Path, text: str) -> None:
 def show(figures: dict) -> None:
     for name in WAYS:
         way = figures[f"{name}_path"]
-        print(f"the way of {'a lobe' if name == 'lobe' else name}: {way['steps']} steps, {way['files']} files, {way['lines']} lines")
+        print(
+            f"the way of {'a lobe' if name == 'lobe' else name}: {way['steps']} steps, {way['files']} files, {way['lines']} lines"
+        )
         for number, step in enumerate(way["way"], 1):
             print(f"  {number:2}  {step['file']}  {step['what']}")
     print("files of code by folder:")

@@ -26,7 +26,9 @@ SOUND = {
     "docs/page.md": "![x](pictures/x.svg) tools/lonely.py\n",
     house.PAGE: f"# Page\n{TABLES}The rest.\n",
     SVG: "",
-    "tools/house/entries.txt": "run.sh  a person\nCMakeLists.txt  CMake\ndocs/*.md  readers\ntools/house/*  the test\n" + SVG + "  readers\n",
+    "tools/house/entries.txt": "run.sh  a person\nCMakeLists.txt  CMake\ndocs/*.md  readers\ntools/house/*  the test\n"
+    + SVG
+    + "  readers\n",
     "tools/house/lobe_path.txt": "gdextension/src/a.cpp  first\ngdextension/src/b.h  then\n",
     "tools/house/light_path.txt": "addons/lobelight/runtime/two.gd  first\naddons/lobelight/runtime/one.gd  then\naddons/late.gd  last\n",
     "tools/house/boxes.json": json.dumps(
@@ -96,7 +98,10 @@ class HouseTest(unittest.TestCase):
 
     def test_gaps_in_a_way_are_found(self):
         for way, gap in (
-            ("run.sh  first\ngdextension/src/b.h  then\n", "gdextension/src/b.h neither needs a file before it nor is needed by one"),
+            (
+                "run.sh  first\ngdextension/src/b.h  then\n",
+                "gdextension/src/b.h neither needs a file before it nor is needed by one",
+            ),
             ("run.sh  first\nrun.sh  again\n", "run.sh comes twice"),
             ("gone.gd\n", "there is no file gone.gd"),
         ):

@@ -92,8 +92,10 @@ def draw(boxes: Boxes, ways: dict[str, list[str]]) -> str:
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img" aria-labelledby="lobelight-about">',
         '<title id="lobelight-about">Who knows whom, and the ways of a lobe and of light</title>',
         f"<style>{STYLE}</style>",
-        '<defs><marker id="lobelight-head" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="8" markerHeight="8" orient="auto">'
-        '<path class="lobelight-head" d="M0 0 L10 5 L0 10 z"/></marker></defs>',
+        (
+            '<defs><marker id="lobelight-head" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="8" markerHeight="8" orient="auto">'
+            '<path class="lobelight-head" d="M0 0 L10 5 L0 10 z"/></marker></defs>'
+        ),
     ]
     for region in boxes.regions:
         (left, right), (top, bottom) = region["columns"], region["rows"]

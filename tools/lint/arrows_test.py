@@ -24,7 +24,9 @@ SOUND = {
 class Arrows(unittest.TestCase):
     def check(self, **changed):
         """What is wrong with SOUND after `changed`: text by folder__file, of a script of the run time."""
-        return self.check_files({f"addons/lobelight/runtime/{key.replace('__', '/')}.gd": text for key, text in changed.items()})
+        return self.check_files(
+            {f"addons/lobelight/runtime/{key.replace('__', '/')}.gd": text for key, text in changed.items()}
+        )
 
     def check_files(self, changed):
         with tempfile.TemporaryDirectory() as name:
