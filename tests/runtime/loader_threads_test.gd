@@ -82,17 +82,20 @@ func test_a_table_has_one_texture_for_all_threads() -> void:
 
 
 func test_nobody_waits_while_the_ready_set_is_loaded() -> void:
-	var before := TableChoice._sets.duplicate()
+	var loaded := TableChoice.OnDemand._loaded
+	var before: Resource = loaded.get(TableChoice.DEFAULT_SET)
 	var cached: Resource = null
 	if ResourceLoader.has_cached(TableChoice.DEFAULT_SET):
 		cached = load(TableChoice.DEFAULT_SET)
 		cached.resource_path = ""
-	TableChoice._sets.clear()
-	var watch := Watch.new(TableChoice.DEFAULT_SET, LobeTableSet.new(), TableChoice._mutex)
+	loaded.erase(TableChoice.DEFAULT_SET)
+	var watch := Watch.new(TableChoice.DEFAULT_SET, LobeTableSet.new(), TableChoice.OnDemand._mutex)
 	ResourceLoader.add_resource_format_loader(watch, true)
 	var found := TableChoice.get_set(LobeMaterial3D.new())
 	ResourceLoader.remove_resource_format_loader(watch)
-	TableChoice._sets = before
+	loaded.erase(TableChoice.DEFAULT_SET)
+	if before != null:
+		loaded[TableChoice.DEFAULT_SET] = before
 	if cached != null:
 		found.resource_path = ""
 		cached.take_over_path(TableChoice.DEFAULT_SET)

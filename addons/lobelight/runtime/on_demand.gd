@@ -26,7 +26,7 @@ static var _mutex := Mutex.new()
 
 ## The file; null, and an error, if the export has left it out.
 static func fetch(path: String, feature: String) -> Resource:
-	var found := _find(path)
+	var found := find(path)
 	if found == null:
 		push_error("Lobelight: " + _describe_loss(feature))
 	return found
@@ -34,14 +34,16 @@ static func fetch(path: String, feature: String) -> Resource:
 
 ## Why a file is not there, in a sentence or two; empty if it is.
 static func find_loss(path: String, feature: String) -> String:
-	return "" if _find(path) != null else _describe_loss(feature)
+	return "" if find(path) != null else _describe_loss(feature)
 
 
-static func _find(path: String) -> Resource:
+## The file, the same for all who ask, on whatever thread; null if the export has left it out.
+static func find(path: String) -> Resource:
 	_mutex.lock()
 	var found: Resource = _loaded.get(path)
 	_mutex.unlock()
-	# Not under the lock: scripts load others.
+	# Not under the lock: loading may wait for other threads, and these for the lock. The loader gives
+	# all of them the same resource.
 	if found == null and ResourceLoader.exists(path):
 		found = load(path)
 		_mutex.lock()

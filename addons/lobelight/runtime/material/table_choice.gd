@@ -21,8 +21,7 @@ const _MIXER := "res://addons/lobelight/runtime/mixing/table_mixer.gd"
 # After this many changes of its widths, a material gets no more tables of its own.
 const _FIRST_CHANGES := 1
 
-# Loaded sets by their paths: loading one takes a while.
-static var _sets: Dictionary[String, LobeTableSet] = {}
+# Sentences that have been told.
 static var _told: Dictionary[String, bool] = {}
 static var _mutex := Mutex.new()
 
@@ -390,16 +389,7 @@ static func _get_layer(path: String, width: float) -> LobeTable:
 
 # Null if there is none.
 static func _get_ready_set(path: String) -> LobeTableSet:
-	_mutex.lock()
-	var found: LobeTableSet = _sets.get(path)
-	_mutex.unlock()
-	# Not under the lock: who loads may wait for other threads, and these for the lock. The loader
-	# gives all of them the same set.
-	if found == null and ResourceLoader.exists(path):
-		found = load(path)
-		_mutex.lock()
-		_sets[path] = found
-		_mutex.unlock()
+	var found := OnDemand.find(path) as LobeTableSet
 	if found != null and found.get_file_problem():
 		_tell(found, found.get_file_problem())
 		return null
