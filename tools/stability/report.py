@@ -37,6 +37,7 @@ SHADER_TITLES = {
     "shader sheen": "Sheen",
     "shader sources": "Sources",
     "shader diffuse": "Diffuse light",
+    "shader placed light": "Lights of a place",
     "shader material": "Whole materials",
     "shader own": "Functions for shaders of others",
     "shader colour": "Colours",
