@@ -112,6 +112,17 @@ func test_what_is_changed_after_loading_is_no_damage(
 	assert_str(loaded.duplicate().call(&"get_problem")).is_empty()
 
 
+func test_another_file_in_its_place_is_not_blamed(kind: String, _test_parameters := KINDS) -> void:
+	var text := _save(_make(kind))
+	_write(text.replace("seed = 7", "seed = 6"))
+	var damaged := ResourceLoader.load(TEXT, "", ResourceLoader.CACHE_MODE_REPLACE)
+	assert_str(damaged.call(&"get_problem")).is_equal(DAMAGED % [kind, kind])
+	_write(_without(_without(text, "format"), "checksum"))
+	var again := ResourceLoader.load(TEXT, "", ResourceLoader.CACHE_MODE_REPLACE)
+	assert_object(again).is_same(damaged)
+	assert_str(again.call(&"get_problem")).is_empty()
+
+
 func test_baking_again_mends_a_damaged_table() -> void:
 	_write(_save(_make_table()).replace("seed = 7", "seed = 6"))
 	var table: LobeTable = _load(TEXT)

@@ -10,7 +10,7 @@ from PIL import Image, ImageDraw, ImageFont
 # Milliseconds a frame.
 DURATION = 66
 QUALITY = 72
-LABELS = ("Lobelight", "StandardMaterial3D")
+LABELS = ("Lobelight", "StandardMaterial3D, Mobile")
 LABEL_SIZE = 16
 MARGIN = 10
 

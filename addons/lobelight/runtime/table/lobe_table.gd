@@ -164,6 +164,11 @@ static func make_single_lobe(width := 0.2) -> LobeTable:
 	return table
 
 
+# What is loaded in place of this may be a file that says nothing of itself.
+func _reset_state() -> void:
+	_saved = SavedForm.new()
+
+
 ## What keeps the table from being used, in a sentence; empty if nothing does.
 func get_problem() -> String:
 	var problem := get_file_problem()

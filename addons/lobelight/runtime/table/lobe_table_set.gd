@@ -103,6 +103,11 @@ static func from_baked(result: Dictionary) -> LobeTableSet:
 	return tables
 
 
+# What is loaded in place of this may be a file that says nothing of itself.
+func _reset_state() -> void:
+	_saved = SavedForm.new()
+
+
 ## What keeps the set from being used, in a sentence; empty if nothing does.
 func get_problem() -> String:
 	_mutex.lock()
