@@ -228,6 +228,7 @@ refuses "diet, a scene that is not there" "absent.tscn" diet absent.tscn
 refuses "diet, a file that is no scene" "is not a scene" diet "$root/README.md"
 refuses "diet, a folder without a project" "is in no project" diet "$work"
 refuses "diet, the acceptance of a scene of one's own" "one too many" diet --acceptance x.tscn
+refuses "diet, a report of a quick acceptance" "--quick draws too little" diet --acceptance --quick --out .
 refuses "diet, an option of the acceptance" "goes with --acceptance" diet --instructions "$root"
 refuses "fuzz, no time" "--minutes" fuzz
 refuses "fuzz, no time at all" "above 0" fuzz --minutes 0

@@ -5,13 +5,14 @@ source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 usage() {
   cat <<USAGE
 usage: ./dev diet SCENE|PROJECT [--target DB] [--json FILE]
-       ./dev diet --acceptance [--instructions] [--out DIR] [--json FILE]
+       ./dev diet --acceptance [--quick] [--instructions] [--out DIR] [--json FILE]
 
 SCENE           a .tscn or .scn with all that it depends on
 PROJECT         a folder with a project.godot and this addon: all its files
 --target DB     materials get the fewest lobes that have this PSNR, as with the preset's "Lobelight > Target Psnr"
 --json FILE     the same as numbers
 --acceptance    exports some scenes with all of the addon and with what they need of it, and compares their pictures
+--quick         draws most of them in Compatibility alone, as ./dev test does; writes no report
 --instructions  also counts what phones' GPUs execute a pixel, as ./dev mobile-cost does (fetches compilers once)
 --out DIR       where README.md and results.json of the acceptance go (docs/report/diet)
 
@@ -48,6 +49,7 @@ while (($# > 0)); do
       shift
       ;;
     --acceptance) acceptance=true ;;
+    --quick) options+=(--quick) ;;
     --instructions) options+=(--instructions) ;;
     -*) die "diet: there is no option '$1'; ./dev diet --help lists them" ;;
     *)
@@ -61,6 +63,9 @@ done
 
 if $acceptance; then
   [[ -z $target ]] || die "diet: --target goes with a scene or a project"
+  if is_one_of --quick "${options[@]}" && is_one_of --out "${options[@]}"; then
+    die "diet: --quick draws too little for a report, so --out does not go with it"
+  fi
   [[ -z $subject ]] || die "diet: --acceptance has its own scenes, '$subject' is one too many"
   need_engine
   need_python accuracy

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands docs export cost crosscheck accuracy renderers stereo web render), or one suite (GROUP:SUITE[:TEST]); [--engine VERSION] [--json FILE] [--sanitize KIND]
+# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands docs export cost crosscheck accuracy renderers stereo web render), or one suite (GROUP:SUITE[:TEST]); [--engine VERSION] [--every-renderer] [--json FILE] [--sanitize KIND]
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/gdunit.sh
 source "$ROOT/tools/lib/gdunit.sh"
@@ -22,17 +22,20 @@ GROUPS_OF_TESTS=(lint harness standin cpp stability native runtime editor demo c
 
 usage() {
   cat <<USAGE
-usage: ./dev test [GROUP…] [--engine VERSION] [--json FILE]
+usage: ./dev test [GROUP…] [--every-renderer] [--engine VERSION] [--json FILE]
        ./dev test GROUP:SUITE[:TEST]… [--json FILE]
        ./dev test --sanitize address|undefined|thread [cpp] [native] [--json FILE]
 
 Groups, all of them if none is named: ${GROUPS_OF_TESTS[*]}
 What they need is made first, once. Then they run side by side, as many at once as there are cores, up to 4; each one's output
-is shown when it has ended, and says how long it took. LOBELIGHT_JOBS=1 runs one after another.
+is shown when it has ended, and a table at the end says where the time went. LOBELIGHT_JOBS=1 runs one after another.
 GROUP:SUITE[:TEST] runs one suite or one test, and makes only what that needs: runtime:lobe_table, cpp:fit_em,
 render:seam:test_no_seam, commands:errors:bake. The groups with such suites are ${SINGLE_GROUPS[*]}.
 A rendered suite is then drawn in Compatibility, unless LOBELIGHT_RENDERERS names others.
 --engine VERSION takes an official build of Godot, 4.6 or later, as ./dev engine downloads it.
+--every-renderer: Compatibility draws all rendered suites, Mobile and Forward+ only those that differ there
+(tools/testing/rendered.sh). With this option each renderer draws all of them, and exports are compared in all three. It takes
+three times as long; run it at night, and before a release.
 With --sanitize the C++ tests run under one of g++'s sanitizers; with address also the native suites, the library in
 the engine. They are built in build/cmake-KIND.
 The last line is "N passed, N failed". Logs and reports are kept in build/test.
@@ -50,6 +53,7 @@ while (($# > 0)); do
       usage
       exit 0
       ;;
+    --every-renderer) export LOBELIGHT_EVERY_RENDERER=yes ;;
     --engine)
       GODOT=$(bash "$ROOT/tools/commands/engine.sh" "${2:-}") || exit
       export GODOT
@@ -113,7 +117,8 @@ elif ((${#singles[@]} > 0)); then
 else
   mapfile -t runners < <(for group in "${groups[@]}"; do jobs_of "$group"; done | awk '!seen[$0]++')
   mapfile -t runners < <(order_jobs "${runners[@]}")
-  prepare_tests "${runners[@]}"
+  timed prepare_tests "${runners[@]}"
+  total_options+=(--preparation "$took")
   if ((${#runners[@]} > 1 && JOBS > 1)); then
     run_side_by_side "${runners[@]}"
   else

@@ -35,6 +35,8 @@ end_job() {
   # A job's own failures are counted by its judge: it ends with 0.
   if (($2 != 0)); then
     status=$2
+    # shellcheck disable=SC2034 # read by judge
+    took=""
     cp "$RESULTS/$1.output" "$RESULTS/$1-job.log"
     judge "$1-job"
   fi

@@ -1,123 +1,148 @@
 # shellcheck shell=bash
 # Which rendered suites run in which renderer, and in which order.
 #
-# Nearly all of their time goes into compiling shaders for the software drivers, each material twice and more. So what
-# Forward+ would compile and draw from the same text as Mobile is drawn in Mobile and in Compatibility.
+# Compatibility draws every suite. Mobile and Forward+ draw what is named here, for there nearly all of a suite's time goes
+# into compiling shaders for the software driver, each material several times. Named is what they do in a way of their own:
+# a branch of a shader, a path of a script, or what of the engine a suite is about. All else is a formula whose text is the
+# same in every renderer; that it comes to the same pixels is what ./dev test renderers checks, with every shader of the run
+# time. ./dev test --every-renderer draws every suite in every renderer.
 
-# Suites that switch on what makes the engine compile more of every shader that comes later: subsurface scattering,
-# lightmaps, voxels, multisampling. They come last.
-LAST_SUITES=(vocabulary_shading_test engine_diffuse_test global_illumination_test)
+# Suites that switch on what makes the engine compile more of every shader that comes later: reflection probes, lightmaps,
+# subsurface scattering, antialiasing over frames, voxels. They come last, those that add most at the end.
+LAST_SUITES=(comparators_prefiltered_test room_comparison_test demo_pictures_test material_engine_test vocabulary_shading_test
+  engine_diffuse_test line_shift_test global_illumination_test)
 
-# What is left to Compatibility: SUITE, or SUITE:TEST. Shaders of the rivals, drawn on squares, whose text has no branch for a
-# renderer. Mobile draws each of them once (comparators_test), and ./dev test accuracy holds two against all renderers.
-MOBILE_LEAVES_OUT=(
-  comparators_test:test_fis_weights_and_levels
-  comparators_test:test_fis_on_a_wider_pyramid_blurs_as_on_means_of_two_by_two
-  comparators_test:test_fis_converges_to_the_reference comparators_test:test_white_furnace_of_fis
-  comparators_test:test_white_furnace_of_toral comparators_test:test_toral_texture_holds_the_lobes
-  comparators_test:test_toral_takes_the_lobes_of_the_nearest_view comparators_test:test_toral_levels
-  comparators_test:test_dual_paraboloid_map_has_levels_of_two_by_two_means
-  comparators_lobes_test
-  comparators_prefiltered_test:test_white_furnace
-  comparators_prefiltered_test:test_split_sum_is_exact_along_the_normal
-  comparators_prefiltered_test:test_bent_normal_of_the_split_sum
-  comparators_prefiltered_test:test_major_axis_lies_between_the_extrema_of_the_ellipse
-  comparators_prefiltered_test:test_major_axis_follows_a_long_highlight
+# SUITE, or SUITE:TEST.
+MOBILE_DRAWS=(
+  # Light is drawn and read back by the rendering device, where Compatibility packs it into viewports.
+  pyramid_test:test_constant_stays_constant pyramid_test:test_light_of_the_sphere_is_kept pyramid_test:test_no_seam
+  pyramid_test:test_level_0_is_blurred_where_the_panorama_is_coarse pyramid_test:test_bad_texels_are_dark
+  pyramid_test:test_srgb_pictures_are_decoded pyramid_test:test_fine_panoramas_lose_no_light
+  cpu_pyramid_test gpu_cube_test held_panorama_test linear_viewport_test
+  live_sources_test:test_no_light_is_lost live_sources_test:test_they_are_those_that_the_library_finds
+  live_sources_test:test_an_environment_has_them_some_frames_later
+  live_sources_test:test_an_answer_that_cannot_be_read_is_none
+  live_sources_test:test_the_memory_for_the_search_is_given_back live_sources_test:test_the_sun_of_a_sky_is_lit_once
+  live_sources_test:test_a_sun_at_the_corner_of_views_is_one live_sources_test:test_slices
+  moving_widths_test
+  baked_light_test:test_the_first_drawn_frame_is_that_of_the_live_light
+  baked_light_test:test_two_worlds_show_their_own_in_the_first_frame
+  environment_bake_test:test_captures
+  light_changes_test:test_a_sky_takes_over_without_a_flash light_changes_test:test_the_scene_of_the_tree_changes_without_a_flash
+  light_changes_test:test_a_fade_into_the_next_goes_on
+  lobe_environment_3d_test update_modes_test update_pace_test first_frame_test exit_test
 
-  # The demo's own scene: Mobile draws every environment by every method.
-  demo_pictures_test:test_the_ball_shows_the_room_that_it_is_in
-  demo_pictures_test:test_sliders_change_what_they_are_for
-)
+  # The engine's skies, backgrounds and captures, each renderer's own.
+  sky_test orientation_test
+  background_light_test:test_backgrounds
+  capture_test:test_mirror_shows_the_scene capture_test:test_tone_mapping_and_effects_do_not_count
+  capture_test:test_mirrors_in_the_scene_show_the_update_before capture_test:test_a_closed_room_without_a_lamp_is_dark
 
-# What is left to Mobile and Compatibility. Everything else, and every new suite, runs in Forward+ too.
-FORWARD_PLUS_LEAVES_OUT=(
-  # Shaders of the rivals and of the references, drawn on squares: no light of the engine is in them, their text has no
-  # branch for a renderer. comparison_test draws some of them in Forward+.
-  comparators_test comparators_lobes_test comparators_prefiltered_test
-  room_comparison_test turning_surface_test width_gradient_test
-
-  # Formulas of the material in the light of the addon alone. In Forward+ its text is drawn by lobe_material_3d_test,
-  # material_engine_test, material_surface_test and by what is left of these suites.
-  furnace_test:test_isotropic_sphere furnace_test:test_anisotropic_sphere furnace_test:test_coloured_lobes
-  furnace_test:test_small_and_large_radiance furnace_test:test_light_beyond_half_floats_stays_finite
-  material_furnace_test:test_metal_plastic_and_coat material_furnace_test:test_extremes
-  material_furnace_test:test_all_amounts_of_specular material_furnace_test:test_maps_of_metal_and_roughness
-  material_surface_test:test_white_surfaces_send_all_light_back material_surface_test:test_a_coat_takes_what_it_reflects
-  material_surface_test:test_dielectrics_reflect_as_specular_says
-  material_surface_test:test_diffuse_light_is_the_cosines material_surface_test:test_diffuse_light_shows_no_star
-  material_widths_test
-  line_test:test_no_step_is_seen line_test:test_white_furnace
-  sources_test
-  occlusion_test:test_what_is_shut_is_black occlusion_test:test_reflections_behind_walls_and_in_grooves
-  occlusion_test:test_the_surface_hides_what_is_below_its_horizon
-  occlusion_test:test_plastic_reflects_and_scatters_what_it_sees
-  occlusion_test:test_a_coat_is_occluded_about_the_mesh_normal
-  occlusion_test:test_diffuse_light_comes_from_the_bent_normal
-  occlusion_test:test_lights_of_places_are_hidden_as_the_worlds_is
-  placed_light_test:test_outside_of_all_boxes_is_the_environment
-  placed_light_test:test_lights_fade_by_the_depth_in_their_boxes
+  # Places: the rendering device has one array of cube maps for them, Compatibility four samplers.
+  placed_light_test:test_materials_with_holes_are_drawn placed_light_test:test_places_are_those_of_moved_vertices
   placed_light_test:test_equal_priorities_are_mixed_and_higher_ones_come_first
   placed_light_test:test_reflections_lie_where_the_walls_are
-  seam_test
-  sheen_test:test_white_surfaces_send_all_light_back sheen_test:test_anisotropic_metal_keeps_its_light
-  sheen_test:test_sheen_is_what_its_lobes_reflect sheen_test:test_a_texture_says_where_the_sheen_is
-  vocabulary_coordinates_test
-  vocabulary_shading_test:test_properties_do_what_godots_do
+  probe_places_test:test_the_nearest_show
+  probe_capture_test:test_the_sky_is_captured_where_it_is_seen
+  probe_schedule_test:test_rebuilds_and_comings_and_goings_leave_nothing_behind
+  world_lights_test:test_worlds_show_their_own_lights world_lights_test:test_a_sky_s_energy_shows_at_once
+  world_lights_test:test_cameras_change_their_masks world_lights_test:test_captures_see_their_own_world
 
-  # When something is captured, drawn, handed over or given back is decided by scripts that do not ask for the
-  # renderer, with calls that Forward+ and Mobile answer by the same code of the engine. In Forward+ captures, skies and
-  # updates are drawn by capture_test, sky_test, background_light_test, pyramid_test and by what is left of these suites.
-  baked_probe_test
-  damaged_light_test
-  light_changes_test:test_a_new_node_takes_over_without_a_flash
-  light_changes_test:test_what_has_left_for_good_gives_way_to_the_neutral_light
-  light_changes_test:test_an_environment_that_fails_keeps_no_old_light
-  light_changes_test:test_a_fade_goes_from_one_to_the_other light_changes_test:test_a_fade_into_the_next_goes_on
-  live_textures_test
-  probe_capture_test:test_a_closed_room_without_a_lamp_is_dark
-  probe_capture_test:test_few_captures_come_to_what_endless_ones_show
-  probe_places_test
-  probe_schedule_test
-  room_motion_test
-  without_probes_test
-  world_lights_test:test_a_second_light_flashes_in_neither_world
-  world_lights_test:test_lights_are_turned_and_dimmed_in_their_worlds_only
-  world_lights_test:test_cameras_that_come_later world_lights_test:test_a_scene_moves_to_another_world
-  world_lights_test:test_a_world_with_no_light_of_its_own_shows_the_first
-  world_lights_test:test_rooms_are_in_their_own_world world_lights_test:test_a_fifth_world_shows_the_first_one_s_light
+  # What the engine does to materials: its lights, decals, fog, alpha, refraction, its limit of roughness.
+  decals_test
+  antialiasing_test:test_variance_widens_reflections
+  lobe_material_3d_test:test_lobes_are_where_the_table_says lobe_material_3d_test:test_poor_meshes_stay_finite
+  lobe_material_3d_test:test_properties_change_while_running lobe_material_3d_test:test_mirrored_mesh
+  lobe_material_3d_test:test_materials_may_be_made_on_threads
+  lobe_material_3d_test:test_neutral_light_without_environment
+  material_engine_test:test_highlights_lie_as_godots material_engine_test:test_fog
+  material_engine_test:test_ambient_light_is_not_added material_engine_test:test_lightmaps_take_no_reflections_for_lamps
+  material_engine_test:test_two_viewports_with_cameras_of_their_own material_engine_test:test_kinds_of_meshes
+  material_engine_test:test_uneven_scale
+  vocabulary_shading_test:test_refraction_behind_a_colour vocabulary_shading_test:test_fog
+  vocabulary_shading_test:test_shadows vocabulary_shading_test:test_edges_of_alpha
+  vocabulary_shading_test:test_emission_in_nits
+  engine_diffuse_test:test_the_engine_lights_as_it_does_godots
+  demo_pictures_test:test_the_engines_own_material_gets_as_much_light
 
-  # The demo's own scene and controls. What Forward+ draws of it is compared with the engine's own material.
-  demo_pictures_test:test_every_method_draws_every_environment
-  demo_pictures_test:test_objects_are_where_they_should_be
-  demo_pictures_test:test_the_divider_splits_the_picture_exactly
-  demo_pictures_test:test_the_lamp_of_the_studio_moves_in_reflections
-  demo_pictures_test:test_the_ball_shows_the_room_that_it_is_in
-  demo_pictures_test:test_sliders_change_what_they_are_for
-  demo_pictures_test:test_controls_are_drawn_in_both_layouts
+  # One of each way to a material of one's own.
+  own_shaders_test:test_a_lobe_shader_material_binds_itself_and_saves_nothing_of_the_light
+  own_shaders_test:test_includes_may_be_relative
+  own_shader_examples_test:test_first_shader_of_the_page
+  visual_shader_test:test_nodes_share_a_graph visual_shader_test:test_the_sky_is_followed
+  frozen_materials_test:test_a_frozen_material_shows_sources_where_there_are_any
+  examples_test:test_cloth
+)
+
+# Scripts and drawing are those of Mobile; the engine's lights, its passes before and after and its antialiasing are not.
+FORWARD_PLUS_DRAWS=(
+  line_shift_test global_illumination_test decals_test exit_test gpu_cube_test linear_viewport_test
+  engine_diffuse_test:test_switches_are_noticed
+  engine_diffuse_test:test_screen_occlusion_acts_on_the_environments_light
+  material_engine_test:test_highlights_lie_as_godots material_engine_test:test_fog
+  material_engine_test:test_two_viewports_with_cameras_of_their_own
+  vocabulary_shading_test:test_light_below_the_surface vocabulary_shading_test:test_refraction_behind_a_colour
+  vocabulary_shading_test:test_edges_of_alpha
+  antialiasing_test:test_variance_widens_reflections
+  first_frame_test:test_the_first_frame_has_the_light
+  lobe_material_3d_test:test_poor_meshes_stay_finite lobe_material_3d_test:test_materials_may_be_made_on_threads
+  live_sources_test:test_slices
+  placed_light_test:test_places_are_those_of_moved_vertices
+  sky_test:test_mirror_shows_the_sky sky_test:test_fog_before_the_sky
+  update_modes_test:test_a_change_shows_in_the_next_frame update_modes_test:test_other_sizes_leave_nothing_behind
+  update_modes_test:test_hundreds_of_updates_leave_nothing_behind
+  world_lights_test:test_cameras_change_their_masks
+  own_shaders_test:test_a_lobe_shader_material_binds_itself_and_saves_nothing_of_the_light
 )
 
 # list_rendered RENDERER: sets $rendered to the arguments of gdUnit4's tool that name the suites.
 list_rendered() {
-  local name entry left_out=() whole=() suites=()
+  local renderer=$1 name file test suites=() entries=()
   rendered=()
-  case $1 in
-    mobile) left_out=("${MOBILE_LEAVES_OUT[@]}") ;;
-    forward_plus) left_out=("${FORWARD_PLUS_LEAVES_OUT[@]}") ;;
+  case ${LOBELIGHT_EVERY_RENDERER:-}$renderer in
+    mobile) entries=("${MOBILE_DRAWS[@]}") ;;
+    forward_plus) entries=("${FORWARD_PLUS_DRAWS[@]}") ;;
+    *)
+      for file in "$ROOT"/tests/render/*_test.gd; do
+        entries+=("$(basename "$file" .gd)")
+      done
+      ;;
   esac
-  for entry in "${left_out[@]}"; do
-    name=${entry%%:*}
-    [[ -f $ROOT/tests/render/$name.gd ]] || die "test: $1 leaves out $entry, but there is no tests/render/$name.gd"
-    if [[ $entry == *:* ]]; then
-      rendered+=(-i "res://tests/render/$name.gd:${entry#*:}")
-    else
-      whole+=("$name")
-    fi
-  done
-  for name in "$ROOT"/tests/render/*_test.gd; do
-    name=$(basename "$name" .gd)
-    is_one_of "$name" "${LAST_SUITES[@]}" "${whole[@]}" || suites+=("$name")
-  done
-  for name in "${suites[@]}" "${LAST_SUITES[@]}"; do
+  check_drawn "$renderer" "${entries[@]}"
+  mapfile -t suites < <(printf '%s\n' "${entries[@]%%:*}" | LC_ALL=C sort -u)
+  for name in $(in_order "${suites[@]}"); do
     rendered+=(-a "res://tests/render/$name.gd")
+    is_one_of "$name" "${entries[@]}" || while read -r test; do
+      is_one_of "$name:$test" "${entries[@]}" || rendered+=(-i "res://tests/render/$name.gd:$test")
+    done < <(tests_of "$name")
+  done
+}
+
+# tests_of SUITE: prints the names of its tests, one a line.
+tests_of() {
+  sed -n 's/^func \(test_[A-Za-z0-9_]*\)(.*/\1/p' "$ROOT/tests/render/$1.gd"
+}
+
+# in_order SUITE…: prints them, LAST_SUITES last.
+in_order() {
+  local name
+  for name in "$@"; do
+    is_one_of "$name" "${LAST_SUITES[@]}" || echo "$name"
+  done
+  for name in "${LAST_SUITES[@]}"; do
+    is_one_of "$name" "$@" && echo "$name"
+  done
+  return 0
+}
+
+# check_drawn RENDERER ENTRY…: ends with a sentence where there is no such suite or test.
+check_drawn() {
+  local renderer=$1 entry
+  shift
+  for entry in "$@" "${LAST_SUITES[@]}"; do
+    [[ -f $ROOT/tests/render/${entry%%:*}.gd ]] \
+      || die "test: $renderer is to draw $entry, but there is no tests/render/${entry%%:*}.gd"
+    [[ $entry != *:* ]] || grep -q "^func ${entry#*:}(" "$ROOT/tests/render/${entry%%:*}.gd" \
+      || die "test: $renderer is to draw $entry, but there is no such test"
   done
 }

@@ -4,7 +4,7 @@ judge: reads a runner's exit status, its JUnit report or closing line and its lo
 summary line, and writes the outcome as JSON. A runner that crashed, left no report or ran no test has failed, and so
 has one whose engine reported errors or leaks that no test answers for.
 
-total: adds up outcomes and prints the last line of `./dev test`, "N passed, N failed".
+total: adds up outcomes, prints where the time went, and the last line of `./dev test`, "N passed, N failed".
 """
 
 import argparse
@@ -29,6 +29,9 @@ KNOWN_NOISE: list[tuple[re.Pattern[str], str]] = [
     ),
 ]
 
+# Of all processor time: what took less is shown together.
+LEAST_SHARE_SHOWN = 0.01
+
 CLOSING_LINE = re.compile(r"(?P<name>[\w -]+): (?P<passed>\d+) passed, (?P<failed>\d+) failed")
 STANDIN_BEGIN = "stand-in: begin"
 STANDIN_END = re.compile(
@@ -50,6 +53,8 @@ class Outcome:
     failed: int = 0
     skipped: int = 0
     problems: list[str] = field(default_factory=list)
+    wall_s: float = 0.0
+    processor_s: float = 0.0
 
     def add_problem(self, sentence: str) -> None:
         self.failed += 1
@@ -127,8 +132,32 @@ def is_known_noise(line: str) -> bool:
     return any(pattern.search(line) for pattern, _reason in KNOWN_NOISE)
 
 
+def read_took(text: str) -> tuple[float, float]:
+    """Wall-clock seconds and processor seconds of "WALL USER SYSTEM", or of nothing."""
+    wall, *processor = (float(part) for part in text.split() or ["0"])
+    return wall, sum(processor)
+
+
+def print_times(outcomes: list[Outcome], preparation: str) -> None:
+    """A line for each runner, those that took most first; those that took little in one line."""
+    rows = [(outcome.runner, outcome.wall_s, outcome.processor_s) for outcome in outcomes]
+    if preparation:
+        rows.append(("preparation", *read_took(preparation)))
+    rows.sort(key=lambda row: -row[2])
+    together = sum(row[2] for row in rows)
+    shown = [row for row in rows if row[2] >= LEAST_SHARE_SHOWN * together]
+    others = [row for row in rows if row not in shown]
+    if others:
+        shown.append((f"{len(others)} others", sum(row[1] for row in others), sum(row[2] for row in others)))
+    shown.append(("together", sum(row[1] for row in rows), together))
+    print(f"\n{'Where the time went':28} wall    processor")
+    for name, wall, processor in shown:
+        print(f"  {name:24} {wall:6.0f} s {processor:8.0f} s")
+
+
 def judge(arguments: argparse.Namespace) -> int:
     outcome = Outcome(arguments.runner, str(arguments.log))
+    outcome.wall_s, outcome.processor_s = read_took(arguments.took)
     text = arguments.log.read_text(encoding="utf-8", errors="replace")
     lines = ESCAPE_SEQUENCE.sub("", text).rstrip("\n").splitlines()
     if arguments.junit:
@@ -153,17 +182,18 @@ def judge(arguments: argparse.Namespace) -> int:
 
 
 def total(arguments: argparse.Namespace) -> int:
-    outcomes = [json.loads(path.read_text(encoding="utf-8")) for path in arguments.outcomes]
-    sums = {key: sum(outcome[key] for outcome in outcomes) for key in ("passed", "failed", "skipped")}
+    outcomes = [Outcome(**json.loads(path.read_text(encoding="utf-8"))) for path in arguments.outcomes]
+    sums = {key: sum(getattr(outcome, key) for outcome in outcomes) for key in ("passed", "failed", "skipped")}
     if arguments.json:
         temporary = arguments.json.with_name(arguments.json.name + ".tmp")
-        temporary.write_text(json.dumps({**sums, "runners": outcomes}, indent=2) + "\n", encoding="utf-8")
+        temporary.write_text(json.dumps({**sums, "runners": list(map(asdict, outcomes))}, indent=2) + "\n", encoding="utf-8")
         temporary.replace(arguments.json)
+    print_times(outcomes, arguments.preparation)
     print()
     for outcome in outcomes:
-        print(Outcome(**outcome).summary())
+        print(outcome.summary())
         # Once more, for who sees only the end of a long log.
-        for problem in outcome["problems"]:
+        for problem in outcome.problems:
             print(f"  {problem}")
     print(f"{sums['passed']} passed, {sums['failed']} failed")
     return 1 if sums["failed"] or not sums["passed"] else 0
@@ -178,10 +208,12 @@ def main() -> int:
     judging.add_argument("--log", type=Path, required=True, help="its output")
     judging.add_argument("--junit", type=Path, help="its report; without one the log's last line counts")
     judging.add_argument("--engine", action="store_true", help="the log is the engine's: look for its complaints")
+    judging.add_argument("--took", default="", help="its seconds: wall, user and system")
     judging.add_argument("--out", type=Path, required=True, help="where the outcome goes, as JSON")
     judging.set_defaults(run=judge)
     adding = commands.add_parser("total")
     adding.add_argument("outcomes", type=Path, nargs="+", help="what judge wrote")
+    adding.add_argument("--preparation", default="", help="seconds before the first runner: wall, user and system")
     adding.add_argument("--json", type=Path, help="where the sum goes, as JSON")
     adding.set_defaults(run=total)
     arguments = parser.parse_args()

@@ -18,11 +18,13 @@ class JudgeTest(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
 
-    def judge(self, log: str, report: str | None = None, status: int = 0, engine: bool = False) -> dict:
+    def judge(
+        self, log: str, report: str | None = None, status: int = 0, engine: bool = False, took: str = ""
+    ) -> dict:
         """Runs the judge; returns its outcome, which must agree with its exit status."""
         (self.folder / "log").write_text(log, encoding="utf-8")
         command = [sys.executable, str(RESULTS), "judge", "--runner", "r", "--status", str(status)]
-        command += ["--log", str(self.folder / "log"), "--out", str(self.folder / "out.json")]
+        command += ["--log", str(self.folder / "log"), "--out", str(self.folder / "out.json"), "--took", took]
         if report is not None:
             (self.folder / "report.xml").write_text(report, encoding="utf-8")
             command += ["--junit", str(self.folder / "report.xml")]
@@ -58,6 +60,10 @@ class JudgeTest(unittest.TestCase):
 
     def test_bad_status_with_a_good_report_is_a_failure(self) -> None:
         self.assert_counts(self.judge("", GOOD_REPORT, status=134), 1, 1)
+
+    def test_seconds_are_kept(self) -> None:
+        outcome = self.judge("", GOOD_REPORT, took="12 20 3")
+        self.assertEqual((outcome["wall_s"], outcome["processor_s"]), (12.0, 23.0))
 
     def test_time_limit_is_a_failure(self) -> None:
         self.assert_counts(self.judge("", GOOD_REPORT, status=124), 1, 1)
@@ -122,7 +128,9 @@ class TotalTest(unittest.TestCase):
                 problems = [f"problem {i} of {index}" for i in range(failed)]
                 paths[-1].write_text(json.dumps({**outcome, "problems": problems}), encoding="utf-8")
             command = [sys.executable, str(RESULTS), "total", *map(str, paths), "--json", f"{folder}/sum"]
+            command += ["--preparation", "100 150 7"]
             result = subprocess.run(command, capture_output=True, text=True, check=False)
+            self.assertRegex(result.stdout, r"(?m)^  preparation +100 s +157 s$")
             written = json.loads(Path(f"{folder}/sum").read_text(encoding="utf-8"))
             self.assertEqual(written["passed"], sum(passed for passed, _failed in counts))
             for index, (_passed, failed) in enumerate(counts):
@@ -135,6 +143,19 @@ class TotalTest(unittest.TestCase):
 
     def test_one_failure(self) -> None:
         self.assertEqual(self.total((2, 0), (3, 1)), (1, "5 passed, 1 failed"))
+
+    def test_times_are_those_of_the_runners(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            paths = []
+            for name, wall, processor in (("short", 1.0, 1.0), ("long", 300.0, 500.0), ("brief", 2.0, 2.0)):
+                paths.append(Path(folder) / f"{name}.json")
+                outcome = {"runner": name, "log": "", "passed": 1, "wall_s": wall, "processor_s": processor}
+                paths[-1].write_text(json.dumps(outcome), encoding="utf-8")
+            command = [sys.executable, str(RESULTS), "total", *map(str, paths)]
+            lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+        self.assertEqual(lines[2].split(), ["long", "300", "s", "500", "s"])
+        self.assertEqual(lines[3].split(), ["2", "others", "3", "s", "3", "s"])
+        self.assertEqual(lines[4].split(), ["together", "303", "s", "503", "s"])
 
     def test_nothing_passed(self) -> None:
         self.assertEqual(self.total((0, 0)), (1, "0 passed, 0 failed"))

@@ -7,28 +7,40 @@ RESULTS=$ROOT/build/test
 # Seconds after which a runner is stopped: far more than any needs on two cores with a software renderer.
 RUNNER_LIMIT=${LOBELIGHT_TEST_LIMIT:-3600}
 
+# timed COMMAND…: runs COMMAND in this shell and sets $took to its seconds: wall, user and system.
+timed() {
+  local times TIMEFORMAT='%0R %0U %0S'
+  times=$(mktemp)
+  # The command's errors go to where they went before; only what `time` says goes to the file.
+  { time "$@" 2>&3; } 3>&2 2>"$times"
+  took=$(<"$times")
+  rm -f "$times"
+}
+
 # run_logged NAME COMMAND…: runs COMMAND with its output on the terminal and in NAME.log, and says how long it took; sets
-# $status.
+# $status and $took.
 run_logged() {
-  local name=$1 times
+  local name=$1 wall user system
   shift
   echo
   echo "== $name"
   status=0
-  times=$(mktemp)
-  {
-    TIMEFORMAT='%0R s, %0U + %0S s of processor time'
-    time { "$@" 2>&1 | tee "$RESULTS/$name.log" || status=${PIPESTATUS[0]}; } 2>&3
-  } 3>&2 2>"$times"
-  echo "== $name: $(<"$times")"
-  rm -f "$times"
+  timed log_output "$RESULTS/$name.log" "$@"
+  read -r wall user system <<<"$took"
+  echo "== $name: $wall s, $user + $system s of processor time"
+}
+
+log_output() {
+  local log=$1
+  shift
+  "$@" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
 }
 
 # judge NAME [OPTION…]: counts what NAME's run, which ended with $status, has in its log or report.
 judge() {
   local name=$1
   shift
-  "$PYTHON" "$ROOT/tools/testing/results.py" judge --runner "$name" --status "$status" \
+  "$PYTHON" "$ROOT/tools/testing/results.py" judge --runner "$name" --status "$status" --took "${took:-}" \
     --log "$RESULTS/$name.log" --out "$RESULTS/$name.json" "$@" || true
   [[ -s $RESULTS/$name.json ]] || die "test: what $name did could not be judged"
 }
@@ -268,7 +280,9 @@ run_export_diet() {
 
 # What exports leave out, and that the pictures stay the same.
 run_export_pictures() {
-  run_logged export-pictures in_time bash "$ROOT/tools/commands/diet.sh" --acceptance
+  local quick=(--quick)
+  [[ -z ${LOBELIGHT_EVERY_RENDERER:-} ]] || quick=()
+  run_logged export-pictures in_time bash "$ROOT/tools/commands/diet.sh" --acceptance "${quick[@]}"
   judge export-pictures
 }
 
@@ -298,7 +312,9 @@ run_export_web() {
 
 # Scenes in a browser beside Compatibility here.
 run_browser() {
-  run_logged browser in_time "$PYTHON" "$ROOT/tests/commands/browser_test.py" --scenes "$RESULTS/browser"
+  local every=()
+  [[ -z ${LOBELIGHT_EVERY_RENDERER:-} ]] || every=(--every-scene)
+  run_logged browser in_time "$PYTHON" "$ROOT/tests/commands/browser_test.py" --scenes "$RESULTS/browser" "${every[@]}"
   judge browser
 }
 
