@@ -20,7 +20,6 @@ MOBILE_DRAWS=(
   pyramid_test:test_srgb_pictures_are_decoded pyramid_test:test_fine_panoramas_lose_no_light
   cpu_pyramid_test gpu_cube_test held_panorama_test linear_viewport_test
   live_sources_test:test_no_light_is_lost live_sources_test:test_they_are_those_that_the_library_finds
-  live_sources_test:test_an_environment_has_them_some_frames_later
   live_sources_test:test_an_answer_that_cannot_be_read_is_none
   live_sources_test:test_the_memory_for_the_search_is_given_back live_sources_test:test_the_sun_of_a_sky_is_lit_once
   live_sources_test:test_a_sun_at_the_corner_of_views_is_one live_sources_test:test_slices
@@ -34,7 +33,7 @@ MOBILE_DRAWS=(
 
   # The engine's skies, backgrounds and captures, each renderer's own.
   sky_test orientation_test
-  background_light_test:test_backgrounds
+  background_light_test:test_a_sky_behind_a_colour background_light_test:test_no_environment_at_all
   capture_test:test_mirror_shows_the_scene capture_test:test_tone_mapping_and_effects_do_not_count
   capture_test:test_mirrors_in_the_scene_show_the_update_before capture_test:test_a_closed_room_without_a_lamp_is_dark
 
@@ -43,8 +42,7 @@ MOBILE_DRAWS=(
   placed_light_test:test_equal_priorities_are_mixed_and_higher_ones_come_first
   placed_light_test:test_reflections_lie_where_the_walls_are
   probe_places_test:test_the_nearest_show
-  probe_capture_test:test_the_sky_is_captured_where_it_is_seen
-  probe_schedule_test:test_rebuilds_and_comings_and_goings_leave_nothing_behind
+  probe_schedule_test:test_freed_at_any_moment
   world_lights_test:test_worlds_show_their_own_lights world_lights_test:test_a_sky_s_energy_shows_at_once
   world_lights_test:test_cameras_change_their_masks world_lights_test:test_captures_see_their_own_world
 
@@ -62,8 +60,8 @@ MOBILE_DRAWS=(
   vocabulary_shading_test:test_refraction_behind_a_colour vocabulary_shading_test:test_fog
   vocabulary_shading_test:test_shadows vocabulary_shading_test:test_edges_of_alpha
   vocabulary_shading_test:test_emission_in_nits
-  engine_diffuse_test:test_the_engine_lights_as_it_does_godots
-  demo_pictures_test:test_the_engines_own_material_gets_as_much_light
+  engine_diffuse_test:test_energy_that_lobes_lose_counts_in_lamps
+  demo_pictures_test:test_the_lamp_of_the_studio_moves_in_reflections
 
   # One of each way to a material of one's own.
   own_shaders_test:test_a_lobe_shader_material_binds_itself_and_saves_nothing_of_the_light
@@ -88,11 +86,13 @@ FORWARD_PLUS_DRAWS=(
   lobe_material_3d_test:test_poor_meshes_stay_finite lobe_material_3d_test:test_materials_may_be_made_on_threads
   live_sources_test:test_slices
   placed_light_test:test_places_are_those_of_moved_vertices
-  sky_test:test_mirror_shows_the_sky sky_test:test_fog_before_the_sky
+  sky_test:test_the_world_s_environment sky_test:test_fog_before_the_sky
   update_modes_test:test_a_change_shows_in_the_next_frame update_modes_test:test_other_sizes_leave_nothing_behind
   update_modes_test:test_hundreds_of_updates_leave_nothing_behind
   world_lights_test:test_cameras_change_their_masks
   own_shaders_test:test_a_lobe_shader_material_binds_itself_and_saves_nothing_of_the_light
+  visual_shader_test:test_the_sky_is_followed
+  moving_widths_test
 )
 
 # list_rendered RENDERER: sets $rendered to the arguments of gdUnit4's tool that name the suites.
