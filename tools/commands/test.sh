@@ -99,6 +99,8 @@ fi
 # Tests draw small pictures with many shaders: what Mesa's compiler spends on optimising them is never earned back. What
 # is drawn stays the same.
 export GALLIVM_PERF=${GALLIVM_PERF:-nopt}
+# What it has compiled is kept for the next run, apart from what commands that measure times find.
+export MESA_SHADER_CACHE_DIR=${MESA_SHADER_CACHE_DIR:-$CACHE/shaders}
 export LOBELIGHT_DRAFT_TABLES=yes
 
 rm -rf "$RESULTS"
