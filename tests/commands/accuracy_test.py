@@ -36,7 +36,7 @@ LEAST_SELF_AGREEMENT = 55.0
 LEAST_AGREEMENT_OF_RENDERERS = 55.0
 SIZE = 64
 CASES = [(environment, alpha) for environment in MAPS for alpha in LEAST_PSNR]
-# Round and brushed, a photograph of a room and one of a wood. With ./dev test --every-renderer, all draw all.
+# Round and brushed, a photograph of a room and one of a wood. With ./dev test --thorough, all draw all.
 SHARED_CASES = [RIVALS_CASE, ("tests/data/forest.exr", "0.05,0.2")]
 ALL_IN = "gl_compatibility"
 
@@ -76,7 +76,7 @@ def methods_of(environment, alpha):
 
 
 def cases_of(renderer):
-    return CASES if renderer == ALL_IN or os.environ.get("LOBELIGHT_EVERY_RENDERER") else SHARED_CASES
+    return CASES if renderer == ALL_IN or os.environ.get("LOBELIGHT_THOROUGH") else SHARED_CASES
 
 
 def compare_all(renderer, folder):

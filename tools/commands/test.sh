@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands docs export cost crosscheck accuracy renderers stereo web render), or one suite (GROUP:SUITE[:TEST]); [--engine VERSION] [--every-renderer] [--json FILE] [--sanitize KIND]
+# runs the tests: all, or those named (lint harness standin cpp stability native runtime editor demo commands docs export cost crosscheck accuracy renderers stereo web render), or one suite (GROUP:SUITE[:TEST]); [--engine VERSION] [--thorough] [--json FILE] [--sanitize KIND]
 source "$(dirname "${BASH_SOURCE[0]}")/../lib/common.sh"
 # shellcheck source=tools/lib/gdunit.sh
 source "$ROOT/tools/lib/gdunit.sh"
@@ -22,7 +22,7 @@ GROUPS_OF_TESTS=(lint harness standin cpp stability native runtime editor demo c
 
 usage() {
   cat <<USAGE
-usage: ./dev test [GROUP…] [--every-renderer] [--engine VERSION] [--json FILE]
+usage: ./dev test [GROUP…] [--thorough] [--engine VERSION] [--json FILE]
        ./dev test GROUP:SUITE[:TEST]… [--json FILE]
        ./dev test --sanitize address|undefined|thread [cpp] [native] [--json FILE]
 
@@ -33,9 +33,9 @@ GROUP:SUITE[:TEST] runs one suite or one test, and makes only what that needs: r
 render:seam:test_no_seam, commands:errors:bake. The groups with such suites are ${SINGLE_GROUPS[*]}.
 A rendered suite is then drawn in Compatibility, unless LOBELIGHT_RENDERERS names others.
 --engine VERSION takes an official build of Godot, 4.6 or later, as ./dev engine downloads it.
---every-renderer: Compatibility draws all rendered suites, Mobile and Forward+ only those that differ there
-(tools/testing/rendered.sh). With this option each renderer draws all of them, and exports are compared in all three. It takes
-three times as long; run it at night, and before a release.
+--thorough: also what takes too long for every change. Without it each renderer draws the suites that tools/testing/rendered.sh
+names; with it all of them. Exports are compared in all three renderers, more scenes are drawn in a browser, and the package
+is built and unpacked. It takes three times as long; run it at night, and before a release.
 With --sanitize the C++ tests run under one of g++'s sanitizers; with address also the native suites, the library in
 the engine. They are built in build/cmake-KIND.
 The last line is "N passed, N failed". Logs and reports are kept in build/test.
@@ -53,7 +53,7 @@ while (($# > 0)); do
       usage
       exit 0
       ;;
-    --every-renderer) export LOBELIGHT_EVERY_RENDERER=yes ;;
+    --thorough) export LOBELIGHT_THOROUGH=yes ;;
     --engine)
       GODOT=$(bash "$ROOT/tools/commands/engine.sh" "${2:-}") || exit
       export GODOT
@@ -94,7 +94,11 @@ if [[ -n $sanitizer ]]; then
   done
   ((${#groups[@]} > 0)) || groups=("${suites[@]}")
 fi
-((${#groups[@]} > 0)) || groups=("${GROUPS_OF_TESTS[@]}")
+list_runners=jobs_of_groups
+if ((${#groups[@]} == 0)); then
+  groups=("${GROUPS_OF_TESTS[@]}")
+  list_runners=runners_of_everything
+fi
 
 # Tests draw small pictures with many shaders: what Mesa's compiler spends on optimising them is never earned back. What
 # is drawn stays the same.
@@ -117,7 +121,7 @@ elif ((${#singles[@]} > 0)); then
     run_single "$single"
   done
 else
-  mapfile -t runners < <(for group in "${groups[@]}"; do jobs_of "$group"; done | awk '!seen[$0]++')
+  mapfile -t runners < <("$list_runners" "${groups[@]}" | awk '!seen[$0]++')
   mapfile -t runners < <(order_jobs "${runners[@]}")
   timed prepare_tests "${runners[@]}"
   total_options+=(--preparation "$took")

@@ -47,8 +47,10 @@ judge() {
 
 # Tests of the C++ core, through CTest.
 run_cpp() {
+  local left_out=(--exclude-regex "$THOROUGH_CPP")
+  [[ -z ${LOBELIGHT_THOROUGH:-} ]] || left_out=()
   rm -f "$RESULTS/cpp.xml"
-  run_logged cpp ctest --test-dir "$ROOT/build/cmake" --timeout "$RUNNER_LIMIT" --parallel "$JOBS" \
+  run_logged cpp ctest --test-dir "$ROOT/build/cmake" "${left_out[@]}" --timeout "$RUNNER_LIMIT" --parallel "$JOBS" \
     --no-tests=error --output-on-failure --output-junit "$RESULTS/cpp.xml"
   judge cpp --junit "$RESULTS/cpp.xml"
 }
@@ -84,6 +86,33 @@ jobs_of() {
     web) printf '%s\n' export_web browser ;;
     *) echo "$1" ;;
   esac
+}
+
+# What a run of everything leaves to --thorough, and to runs that name the group. The package's library is built once more, by
+# Zig, and two eyes see in Forward+ what they see in Mobile.
+THOROUGH_RUNNERS=(export_package stereo_forward_plus)
+
+# C++ tests that take more than ten seconds each.
+THOROUGH_CPP='No step of the largest tables|A fit needs no more memory than the formula'
+
+# jobs_of_groups GROUP…: prints the runners of these groups, one a line.
+jobs_of_groups() {
+  local group
+  for group in "$@"; do
+    jobs_of "$group"
+  done
+}
+
+# runners_of_everything GROUP…: prints the runners of a run in which no group was named, one a line.
+runners_of_everything() {
+  local group job
+  for group in "$@"; do
+    for job in $(jobs_of "$group"); do
+      if [[ -n ${LOBELIGHT_THOROUGH:-} ]] || ! is_one_of "$job" "${THOROUGH_RUNNERS[@]}"; then
+        echo "$job"
+      fi
+    done
+  done
 }
 
 # The runners that take longest begin first, so that none of them is left over at the end.
@@ -281,7 +310,7 @@ run_export_diet() {
 # What exports leave out, and that the pictures stay the same.
 run_export_pictures() {
   local quick=(--quick)
-  [[ -z ${LOBELIGHT_EVERY_RENDERER:-} ]] || quick=()
+  [[ -z ${LOBELIGHT_THOROUGH:-} ]] || quick=()
   run_logged export-pictures in_time bash "$ROOT/tools/commands/diet.sh" --acceptance "${quick[@]}"
   judge export-pictures
 }
@@ -313,7 +342,7 @@ run_export_web() {
 # Scenes in a browser beside Compatibility here.
 run_browser() {
   local every=()
-  [[ -z ${LOBELIGHT_EVERY_RENDERER:-} ]] || every=(--every-scene)
+  [[ -z ${LOBELIGHT_THOROUGH:-} ]] || every=(--every-scene)
   run_logged browser in_time "$PYTHON" "$ROOT/tests/commands/browser_test.py" --scenes "$RESULTS/browser" "${every[@]}"
   judge browser
 }
