@@ -11,8 +11,9 @@ extends SceneTree
 const FlatShader := preload("res://addons/lobelight/editor/export/flat_shader.gd")
 const SIZE := Vector2i(480, 270)
 const COLUMNS := 5
-# What another suite draws: line_shift_test in Forward+, which alone has it.
-const DRAWN_ELSEWHERE: PackedStringArray = ["line_shift.gdshaderinc"]
+# What other suites draw: antialiasing_test, in every renderer; line_shift_test, in Forward+, which
+# alone has it.
+const DRAWN_ELSEWHERE: PackedStringArray = ["normal_variance.gdshaderinc", "line_shift.gdshaderinc"]
 
 
 func _initialize() -> void:
@@ -102,7 +103,7 @@ func _layers_and_coordinates() -> Array[LobeMaterial3D]:
 			"roughness": 0.5,
 			"normal_enabled": true,
 			"normal_texture": _waves(),
-			"specular_antialiasing": LobeMaterial3D.SpecularAntialiasing.ENABLED,
+			"specular_antialiasing": LobeMaterial3D.SpecularAntialiasing.DISABLED,
 			"clearcoat_enabled": true,
 			"clearcoat": 0.7,
 			"clearcoat_roughness": 0.2,
@@ -115,6 +116,7 @@ func _layers_and_coordinates() -> Array[LobeMaterial3D]:
 			"emission_enabled": true,
 			"emission": Color(0.1, 0.02, 0.0),
 			"detail_enabled": true,
+			"detail_blend_mode": BaseMaterial3D.BLEND_MODE_MUL,
 			"detail_mask": _ramp(),
 			"detail_normal": _waves(),
 		}
