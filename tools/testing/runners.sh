@@ -116,8 +116,8 @@ runners_of_everything() {
 }
 
 # The runners that take longest begin first, so that none of them is left over at the end.
-LONGEST_FIRST=(render_mobile render_forward_plus render_gl_compatibility export_pictures browser accuracy export_package
-  report_smoke export_android bench_runtime renderers commands fuzz cpp)
+LONGEST_FIRST=(render_gl_compatibility render_mobile export_pictures browser render_forward_plus accuracy cpp docs lint
+  export_package commands stability report_smoke editor export_diet export_web stereo_mobile export_android renderers)
 
 # order_jobs JOB…: prints them, one a line.
 order_jobs() {
