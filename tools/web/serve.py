@@ -2,6 +2,7 @@
 """Serves a folder on this machine: serve.py FOLDER [PORT] [--isolated]."""
 
 import argparse
+import contextlib
 import functools
 import http.server
 import signal
@@ -29,6 +30,11 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         # A folder that is built anew is to be seen.
         self.send_header("Cache-Control", "no-cache")
         super().end_headers()
+
+    def copyfile(self, source, outputfile):
+        # A browser may turn to another page before it has all of this one.
+        with contextlib.suppress(ConnectionError):
+            super().copyfile(source, outputfile)
 
     def log_message(self, *_arguments):
         pass
