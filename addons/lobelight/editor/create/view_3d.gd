@@ -9,18 +9,12 @@ const _VIEWS := 4
 
 ## The sun that the view shows by itself; [code]null[/code] where it shows none.
 static func find_preview_sun() -> DirectionalLight3D:
-	for node in _find_editor().get_children():
-		if node is DirectionalLight3D:
-			return node
-	return null
+	return _find_part("DirectionalLight3D") as DirectionalLight3D
 
 
 ## The sky that the view shows by itself; [code]null[/code] where it shows none.
 static func find_preview_environment() -> WorldEnvironment:
-	for node in _find_editor().get_children():
-		if node is WorldEnvironment:
-			return node
-	return null
+	return _find_part("WorldEnvironment") as WorldEnvironment
 
 
 ## Has all parts of the view look at what is selected, as its key (F) does.
@@ -35,8 +29,12 @@ static func focus_selection() -> void:
 					menu.id_pressed.emit(menu.get_item_id(item))
 
 
-static func _find_editor() -> Node:
-	var node: Node = EditorInterface.get_editor_viewport_3d(0)
-	while not node.is_class(_EDITOR):
-		node = node.get_parent()
-	return node
+# What the view adds to a scene lies right below its editor.
+static func _find_part(type: String) -> Node:
+	var editor: Node = EditorInterface.get_editor_viewport_3d(0)
+	while editor != null and not editor.is_class(_EDITOR):
+		editor = editor.get_parent()
+	for node in editor.get_children() if editor != null else []:
+		if node.is_class(type):
+			return node
+	return null
