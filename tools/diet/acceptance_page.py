@@ -15,14 +15,15 @@ COSTS = """
 
 *samplers* are all of the material's shader. *instructions* are counted by Mesa's compilers as in
 [docs/report/mobile-cost](../mobile-cost/README.md), the engine's own for an empty material left out. A material's shader is made
-for what it uses, and is the same before and after: what a project has besides costs a material nothing.
+for what it uses, and is the same before and after: what a project has besides costs a material nothing. Shaders of one's own
+are counted there.
 
 """
 PANORAMA = """
 ## Panoramas
 
-A panorama that is seen through the cube map alone is exported no finer than that shows: the last scene's takes {after:,} bytes
-of the pack instead of {before:,} ({why}).
+A panorama that is seen through the cube map alone is exported no finer than that shows. Where nothing else shows it, the scene's
+takes {after:,} bytes of the pack instead of {before:,} ({why}).
 """
 TARGETS = """
 ## With a target error
@@ -82,7 +83,8 @@ def target_rows(rows, gpus):
 
 def cost_rows(rows, gpus):
     for row in rows:
-        if not row["materials"]:
+        # Of shaders of one's own nothing is counted here.
+        if row["scene"] == "empty":
             yield [row["label"], 0, 0, *[0 for _ in gpus]]
         for material in row["materials"]:
             fetches = material["environment_fetches"] + material["table_fetches"]
