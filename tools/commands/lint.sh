@@ -106,6 +106,7 @@ check gdformat "${#gdscript[@]}" "$bin/gdformat" --line-length 100 --check "${gd
 check gdlint "${#gdscript[@]}" "$bin/gdlint" "${gdscript[@]}"
 check shellcheck "${#shell[@]}" shellcheck "${shell[@]}"
 check actionlint "${#workflows[@]}" actionlint
+check workflow_commands "${#workflows[@]}" "$PYTHON" tools/lint/workflow_commands.py
 check github_forms "${#forms[@]}" github_forms
 mapfile -t runtime < <(files '*.gd' | grep '^./addons/lobelight/runtime/')
 check arrows "${#runtime[@]}" "$PYTHON" tools/lint/arrows.py
