@@ -76,11 +76,16 @@ run_single() {
   esac
 }
 
-# single_gdscript NAME ENGINE…
+# single_gdscript NAME ENGINE…: gdUnit4 names suites to run, and tests to leave out.
 single_gdscript() {
-  local name=$1
+  local name=$1 other arguments=(-a "res://$file")
   shift
-  run_gdunit "$name" -a "res://$file${test:+:$test}" -- in_time "$@"
+  if [[ -n $test ]]; then
+    while read -r other; do
+      [[ $other == "$test" ]] || arguments+=(-i "res://$file:$other")
+    done < <(sed -n 's/^func \(test_[A-Za-z0-9_]*\)(.*/\1/p' "$ROOT/$file")
+  fi
+  run_gdunit "$name" "${arguments[@]}" -- in_time "$@"
 }
 
 single_cpp() {
