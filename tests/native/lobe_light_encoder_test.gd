@@ -85,7 +85,7 @@ func test_a_light_in_blocks_has_a_coarse_part() -> void:
 	light.seal()
 	assert_str(light.get_problem()).is_empty()
 	coarse.version = 99
-	assert_str(light.get_problem()).contains("form 99")
+	assert_str(light.get_problem()).contains("format 99")
 	# Whoever has no blocks needs no coarse part.
 	light.faces = halves
 	assert_str(LightFormats.convert_light(light, LightFormats.Format.SHARED_EXPONENT)).is_empty()

@@ -3,7 +3,7 @@ extends GdUnitTestSuite
 ## by quitting the engine.
 
 ## Work that is made of other work, each part of which takes minutes.
-const NESTED: Array[Array] = [
+const NESTED := [
 	[{"alpha": [0.01, 0.3], "lobes": "auto", "target": 46, "views": [64, 64]}],
 	[{"widths": [0.01, 0.3], "lobes": 32, "views": [256, 256], "threads": 1}],
 ]
