@@ -37,11 +37,6 @@ func _run() -> void:
 	await _mouse.wait(1.5)
 	match _walk:
 		"room":
-			await _wait_for_files()
-			EditorInterface.set_plugin_enabled(RoomWalk.ADDON, true)
-			# New importers have all files looked at, in a thread that a scene's saving must not meet.
-			await _mouse.wait(0.5)
-			await _wait_for_files()
 			await _count(RoomWalk.new(_mouse, _take))
 		"hand":
 			await _count(HandWalk.new(_mouse, _take))

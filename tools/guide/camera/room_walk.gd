@@ -15,6 +15,11 @@ const _RADIUS := 110.0
 
 
 func go() -> void:
+	await _enable()
+	await _close_settings()
+	# The page begins with the addon enabled.
+	_mouse.clicks = 0
+	await _mouse.wait(3.0)
 	await _open_room()
 	var tree: Tree = Finder.of_class(Finder.of_class(_root, "SceneTreeEditor"), "Tree")
 	await _mouse.choose_item(tree, tree.get_root(), 0, "the root")
