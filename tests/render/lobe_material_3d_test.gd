@@ -98,6 +98,28 @@ func test_perspective_camera() -> void:
 		_assert_close(image.get_pixelv(pixel).r, expected, 0.015, "pixel %s" % pixel)
 
 
+func test_one_eye_where_there_may_be_two() -> void:
+	var is_compatibility := RenderingServer.get_current_rendering_method() == "gl_compatibility"
+	var setting := "xr/shaders/enabled"
+	var before: bool = ProjectSettings.get_setting(setting)
+	_environment.panorama = _gradient
+	await _environment.rebuild()
+	_view.camera.set_perspective(70.0, 0.05, 10.0)
+	var pictures: Array[PackedByteArray] = []
+	for enabled: bool in [false, true]:
+		ProjectSettings.set_setting(setting, enabled)
+		var material := _smooth_material()
+		var has_define := "#define LOBELIGHT_EYES" in material.get_shader_code()
+		assert_bool(has_define).is_equal(enabled and is_compatibility)
+		var sphere := Kit.make_sphere(material)
+		_view.add_child(sphere)
+		var image: Image = await _view.capture()
+		pictures.append(image.get_data())
+		sphere.free()
+	ProjectSettings.set_setting(setting, before)
+	assert_bool(pictures[0] == pictures[1]).is_true()
+
+
 func test_impostor_and_mesh_agree() -> void:
 	var table := Kit.make_odd_table(6, Vector2i(7, 4), Vector2(0.05, 0.2), 9.0)
 	_environment.panorama = Kit.make_panorama(

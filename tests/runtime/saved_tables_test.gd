@@ -123,6 +123,21 @@ func test_another_file_in_its_place_is_not_blamed(kind: String, _test_parameters
 	assert_str(again.call(&"get_problem")).is_empty()
 
 
+# As by Scene > Reload Saved Scene.
+func test_what_a_file_leaves_out_is_as_by_default(kind: String, _test_parameters := KINDS) -> void:
+	var tables := _make(kind)
+	tables.set(&"seed", 0)
+	var text := _save(tables)
+	assert_str(text).not_contains("seed")
+	var loaded := ResourceLoader.load(TEXT, "", ResourceLoader.CACHE_MODE_REPLACE)
+	loaded.set(&"seed", 6)
+	var again := ResourceLoader.load(TEXT, "", ResourceLoader.CACHE_MODE_REPLACE)
+	assert_object(again).is_same(loaded)
+	assert_str(again.call(&"get_problem")).is_empty()
+	assert_int(again.get(&"seed")).is_equal(0)
+	assert_str(_save(again)).is_equal(text)
+
+
 func test_baking_again_mends_a_damaged_table() -> void:
 	_write(_save(_make_table()).replace("seed = 7", "seed = 6"))
 	var table: LobeTable = _load(TEXT)

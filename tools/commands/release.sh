@@ -23,7 +23,7 @@ Equal sources give equal bytes. Files that are not committed yet are packed as t
 
 --check        the checks that need no package; nothing is written
 --no-library   for a try: the package without libraries, and no documentation
---out DIR      where the files go (default: build/release)
+--out DIR      where the files go (default: build/release; with --no-library build/release-try)
 --json FILE    version, commit, files that are not committed, the checks that were made, and the files with their SHA-256
 USAGE
 }

@@ -50,7 +50,8 @@ class Commands:
             if option not in listed
         ]
         if name == "test":
-            groups = set(re.findall(r"[a-z]+", shown))
+            line_of_groups = re.search(r"^Groups, all of them if none is named: (.+)$", shown, re.MULTILINE)
+            groups = set(line_of_groups[1].split()) if line_of_groups else set()
             named = (word for word in words[1:] if NAME.match(word))
             found += [f"./dev test has no group {word}" for word in named if word not in groups]
         return found

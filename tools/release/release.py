@@ -53,7 +53,7 @@ def read_arguments(arguments):
     if options.check and options.out:
         raise ReleaseError("--check writes no release: --out does not go with it")
     here = pathlib.Path(os.environ.get("LOBELIGHT_CWD", "."))
-    options.out = here / options.out if options.out else ROOT / "build/release"
+    options.out = here / options.out if options.out else ROOT / ("build/release-try" if options.no_library else "build/release")
     if options.out.exists() and not options.out.is_dir():
         raise ReleaseError(f"{options.out}: is not a folder")
     parents = [] if options.check or options.out.parent == ROOT / "build" else [options.out]

@@ -44,6 +44,9 @@ MOBILE_DRAWS=(
   live_sources_test:test_the_memory_for_the_search_is_given_back live_sources_test:test_the_sun_of_a_sky_is_lit_once
   live_sources_test:test_a_sun_at_the_corner_of_views_is_one live_sources_test:test_slices
   moving_widths_test
+  # What Compatibility does in a way of its own, or leaves out.
+  material_surface_test:test_transparency material_engine_test:test_decals_change_the_engines_lights_only
+  probe_places_test:test_worlds_take_from_the_places background_light_test:test_a_sky_that_is_missing
   baked_light_test:test_the_first_drawn_frame_is_that_of_the_live_light
   baked_light_test:test_two_worlds_show_their_own_in_the_first_frame
   environment_bake_test:test_captures

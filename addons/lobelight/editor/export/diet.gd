@@ -96,6 +96,10 @@ static func _share_of(path: String, reach: SetReach) -> Share:
 		share.why = "all widths, for %s; %s" % [users, reach.whole_because]
 		return share
 	var whole: LobeTableSet = load(path)
+	# A file that materials refuse goes along as it is, and is refused there too.
+	if not whole.get_problem().is_empty():
+		share.why = whole.get_problem()
+		return share
 	var cut := SetCut.of(whole, reach)
 	var ends := reach.get_range()
 	share.why = (

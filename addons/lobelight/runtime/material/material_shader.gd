@@ -45,6 +45,7 @@ const _SCALING := "rendering/scaling_3d/mode"
 const _SCALING_OVER_FRAMES: PackedInt32Array = [
 	Viewport.SCALING_3D_MODE_FSR2, Viewport.SCALING_3D_MODE_METALFX_TEMPORAL
 ]
+const _SEVERAL_EYES := "xr/shaders/enabled"
 const _LIMITER := "rendering/anti_aliasing/screen_space_roughness_limiter/enabled"
 ## Lookups of the diffuse light, see diffuse/diffuse.gdshaderinc.
 const DIFFUSE_FETCHES := 6
@@ -182,6 +183,8 @@ static func _defines(surface: LobeBaseMaterial3D, choice: TableChoice) -> Packed
 			defines.append("LINE_FADES")
 		if _is_mean_of_frames():
 			defines.append("LINE_SHIFTED")
+	if _may_draw_eyes():
+		defines.append("EYES")
 	if choice.is_per_pixel:
 		defines.append("WIDTHS_PER_PIXEL")
 	elif choice.has_second_texels():
@@ -227,6 +230,14 @@ static func _is_mean_of_frames() -> bool:
 		return false
 	var scaling: int = ProjectSettings.get_setting(_SCALING, Viewport.SCALING_3D_MODE_BILINEAR)
 	return ProjectSettings.get_setting(_TAA, false) or scaling in _SCALING_OVER_FRAMES
+
+
+# Whether views of several eyes may have to be told from others: where the engine does not say where
+# the eye is.
+static func _may_draw_eyes() -> bool:
+	if RenderingServer.get_current_rendering_method() != "gl_compatibility":
+		return false
+	return ProjectSettings.get_setting(_SEVERAL_EYES, false)
 
 
 # Whether the engine itself widens its lights' highlights where normals differ from pixel to pixel.

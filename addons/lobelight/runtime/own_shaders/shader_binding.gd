@@ -186,7 +186,9 @@ func _give_lobes(kind: String) -> void:
 	if tables == null or kind.is_empty():
 		return
 	var is_isotropic := "3D" not in kind
-	var problem := WidthsTexture.find_problem(tables.widths, is_isotropic)
+	var problem := tables.get_problem()
+	if problem.is_empty():
+		problem = WidthsTexture.find_problem(tables.widths, is_isotropic)
 	if problem.is_empty() and not is_isotropic and tables.is_isotropic():
 		problem = "The set has isotropic lobes only; #define LOBELIGHT_ISOTROPIC."
 	if not problem.is_empty():

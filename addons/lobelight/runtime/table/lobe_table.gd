@@ -164,9 +164,17 @@ static func make_single_lobe(width := 0.2) -> LobeTable:
 	return table
 
 
-# What is loaded in place of this may be a file that says nothing of itself.
+# What is loaded in place of this may be a file that says nothing of itself, and it leaves out what
+# is as by default.
 func _reset_state() -> void:
 	_saved = SavedForm.new()
+	brdf = ""
+	alpha = Vector2(0.1, 0.1)
+	lobe_count = 0
+	views = Vector2i.ZERO
+	method = ""
+	seed = 0
+	image = null
 
 
 ## What keeps the table from being used, in a sentence; empty if nothing does.

@@ -26,7 +26,7 @@ const _SHARED_STEPS := 256.0
 @export var brdf := "":
 	set(value):
 		brdf = value
-		_follow_change()
+		_invalidate()
 ## The widths on each axis, rising.
 @export var widths := PackedFloat64Array():
 	set(value):
@@ -47,7 +47,7 @@ const _SHARED_STEPS := 256.0
 @warning_ignore("shadowed_global_identifier") @export var seed := 0:
 	set(value):
 		seed = value
-		_follow_change()
+		_invalidate()
 ## The tables' images (see [member LobeTable.image]) one below the other: the anisotropic tables,
 ## that of widths x and y, x ≥ y, counted from 0, being number [code]x * (x + 1) / 2 + y[/code],
 ## then the isotropic tables of all widths.
@@ -103,9 +103,16 @@ static func from_baked(result: Dictionary) -> LobeTableSet:
 	return tables
 
 
-# What is loaded in place of this may be a file that says nothing of itself.
+# What is loaded in place of this may be a file that says nothing of itself, and it leaves out what
+# is as by default.
 func _reset_state() -> void:
 	_saved = SavedForm.new()
+	brdf = ""
+	widths = PackedFloat64Array()
+	lobe_count = 0
+	views = Vector2i.ZERO
+	seed = 0
+	image = null
 
 
 ## What keeps the set from being used, in a sentence; empty if nothing does.
