@@ -52,7 +52,9 @@ class Commands:
         if name == "test":
             line_of_groups = re.search(r"^Groups, all of them if none is named: (.+)$", shown, re.MULTILINE)
             groups = set(line_of_groups[1].split()) if line_of_groups else set()
-            named = (word for word in words[1:] if NAME.match(word))
+            # What follows an option is its value.
+            pairs = zip(words, words[1:])
+            named = (word for before, word in pairs if NAME.match(word) and not before.startswith("--"))
             found += [f"./dev test has no group {word}" for word in named if word not in groups]
         return found
 
