@@ -165,7 +165,8 @@ def write(folder, entries, driver, options):
         text += leads + listed(leads_missed)
     if ratios:
         figures.ratios(entries, folder / "ratios.svg")
-        text += "\n## Strong anisotropy\n\n![Error against fetches, a curve for each ratio](ratios.svg)\n" + ratios
+        text = text.replace("# Accuracy\n", "# Accuracy\n\n![Error against fetches, a curve for each ratio](ratios.svg)\n", 1)
+        text += "\n## Strong anisotropy\n" + ratios
     if grid:
         figures.grid(cells, folder / "grid.svg")
         text += (

@@ -121,6 +121,8 @@ def summary(rows, variants):
 
 INTRODUCTION = """# What a pixel costs on phones
 
+![Instructions of every variant](cost.svg)
+
 Written by `./dev mobile-cost`: statistics of Mesa {mesa}'s shader compilers for shaders as the engine
 hands them to the driver, without a phone. They rank variants; they are not milliseconds, and Qualcomm's and Arm's own
 compilers will differ.
@@ -146,7 +148,7 @@ def versions(rows):
 
 
 def readme(rows, variants):
-    parts = [INTRODUCTION.format(mesa=versions(rows)), "![Instructions of every variant](cost.svg)\n"]
+    parts = [INTRODUCTION.format(mesa=versions(rows))]
     told = goals(rows)
     if told:
         parts.append("## Goals (Adreno in Mobile, Adreno 320 in Compatibility)\n")

@@ -56,6 +56,14 @@ def summary_of(page):
     }
 
 
+def begin_with_a_picture(blocks):
+    """The first figure comes right after the title, and what is said in short after that."""
+    figure = next((block for block in blocks if isinstance(block, doc.Figure)), None)
+    if figure is not None:
+        blocks.remove(figure)
+        blocks.insert(1, figure)
+
+
 def write(out, entries, report_folder, left_out, to_come=0):
     """Writes README.md, index.html and the figures; returns the verdicts for --json. `to_come`: cases not measured yet."""
     # Software first: it has the most.
@@ -65,6 +73,7 @@ def write(out, entries, report_folder, left_out, to_come=0):
     verdicts.in_short(page, left_out, to_come)
     for section in SECTIONS:
         section(page)
+    begin_with_a_picture(page.blocks)
     measurements.write(out / "README.md", doc.markdown(page.blocks))
     measurements.write(out / "index.html", doc.html_page(verdicts.TITLE, page.blocks))
     return summary_of(page)

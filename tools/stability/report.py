@@ -161,14 +161,16 @@ def limits(results):
 
 def readme(results, pictures):
     failed = [case for case in results if not case["passed"]]
+    first_picture, pictures = [f"![{caption}]({name})\n" for name, caption in pictures[:1]], pictures[1:]
     lines = [
         "# Stability",
+        "",
+        *first_picture,
+        f"**{len(results) - len(failed)} cases passed, {len(failed)} failed.**",
         "",
         "Written by `./dev stability`; the worst of each material is a row of [worst.csv](worst.csv), and `--json FILE`"
         " writes every case. Errors are the worst of a group relative to their bound; energies are relative to the"
         " directional albedo.",
-        "",
-        f"**{len(results) - len(failed)} cases passed, {len(failed)} failed.**",
         "",
     ]
     header = ("group", "cases", "failed", "error", "bound", "where", "energy", "bound", "iterations ≤")

@@ -219,11 +219,11 @@ def write_report(out, results, sheet):
     lines = [
         "# In a browser",
         "",
+        "![Each environment of the demo by each method, drawn in the browser](sheet.png)",
+        "",
         "Written by `./dev web-check`: the page of `./dev web` in a headless Chromium, which draws WebGL 2 in software (SwiftShader),",
         "beside the Compatibility renderer on the same machine, also in software (llvmpipe). Times are of this machine and of what else",
         "it did; only their ratios say something.",
-        "",
-        "![Each environment of the demo by each method, drawn in the browser](sheet.png)",
         "",
         "| | |",
         "|---|---|",
