@@ -51,7 +51,7 @@ def repository(folder: Path, page: str) -> Path:
     write(folder / "dev", '#!/usr/bin/env bash\nexec bash "$(dirname "$0")/tools/commands/$1.sh" "${@:2}"\n')
     (folder / "dev").chmod(0o755)
     write(folder / "tools/commands/bake.sh", BAKE)
-    write(folder / "tools/commands/test.sh", 'echo "usage: ./dev test [GROUP…]; groups: lint cpp"\n')
+    write(folder / "tools/commands/test.sh", 'echo "usage: ./dev test [GROUP…]"\necho "Groups, all of them if none is named: lint cpp"\n')
     write(folder / "tools/draw.sh", "")
     write(folder / "tools/docs/pictures.txt", "# A comment.\ndocs/pictures/drawn.png  bash tools/draw.sh\n")
     write(folder / "addons/lobelight/x.gd", "")

@@ -34,8 +34,8 @@ render:seam:test_no_seam, commands:errors:bake. The groups with such suites are 
 A rendered suite is then drawn in Compatibility, unless LOBELIGHT_RENDERERS names others.
 --engine VERSION takes an official build of Godot, 4.6 or later, as ./dev engine downloads it.
 --thorough: also what takes too long for every change. Without it each renderer draws the suites that tools/testing/rendered.sh
-names; with it all of them. Exports are compared in all three renderers, more scenes are drawn in a browser, and the package
-is built and unpacked. It takes three times as long; run it at night, and before a release.
+names; with it all of them. Exports are compared in all three renderers, more scenes are drawn in a browser, the
+package is built and unpacked, and damaged files are read under sanitizers. It takes three times as long; run it at night, and before a release.
 With --sanitize the C++ tests run under one of g++'s sanitizers; with address also the native suites, the library in
 the engine. They are built in build/cmake-KIND.
 The last line is "N passed, N failed". Logs and reports are kept in build/test.

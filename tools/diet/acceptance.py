@@ -72,7 +72,7 @@ SIDE = 128
 # Rendering methods and their drivers. What materials are is the same in all, and told by the first that draws them.
 RENDERERS = {"mobile": "vulkan", "forward_plus": "vulkan", "gl_compatibility": "opengl3"}
 # What others than Compatibility draw with --quick: one scene of each part of the run time that is for the rendering device.
-QUICK = {"mobile": ("isotropic", "by_script", "everything", "room"), "forward_plus": ()}
+QUICK = {"mobile": ("isotropic", "by_script", "everything"), "forward_plus": ()}
 COMPLAINT = re.compile(r"(^|\s)(SCRIPT |USER )?(ERROR|WARNING)(:|\s)|handle_crash|leaked at exit", re.MULTILINE)
 # What the engine says in Compatibility wherever the driver draws in memory, and of a sky that another one follows.
 ALWAYS_SAID = re.compile(r"^(WARNING: Could not set V-Sync mode|ERROR: Texture with GL ID of \d+: leaked).*$", re.MULTILINE)

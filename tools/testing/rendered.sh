@@ -97,13 +97,13 @@ MOBILE_DRAWS=(
 
 # Scripts and drawing are those of Mobile; the engine's lights, its passes before and after and its antialiasing are not.
 FORWARD_PLUS_DRAWS=(
-  line_shift_test global_illumination_test decals_test exit_test gpu_cube_test linear_viewport_test
+  line_shift_test:test_only_where_frames_are_kept line_shift_test:test_the_mean_of_frames_is_nearer_to_more_lobes
+  global_illumination_test decals_test exit_test gpu_cube_test linear_viewport_test
   engine_diffuse_test:test_switches_are_noticed
   engine_diffuse_test:test_screen_occlusion_acts_on_the_environments_light
   material_engine_test:test_highlights_lie_as_godots material_engine_test:test_fog
   material_engine_test:test_two_viewports_with_cameras_of_their_own
-  vocabulary_shading_test:test_light_below_the_surface vocabulary_shading_test:test_refraction_behind_a_colour
-  vocabulary_shading_test:test_edges_of_alpha
+  vocabulary_shading_test:test_refraction_behind_a_colour vocabulary_shading_test:test_edges_of_alpha
   antialiasing_test:test_variance_widens_reflections
   first_frame_test:test_the_first_frame_has_the_light
   lobe_material_3d_test:test_poor_meshes_stay_finite lobe_material_3d_test:test_materials_may_be_made_on_threads

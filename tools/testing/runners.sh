@@ -89,11 +89,11 @@ jobs_of() {
 }
 
 # What a run of everything leaves to --thorough, and to runs that name the group. The package's library is built once more, by
-# Zig, and two eyes see in Forward+ what they see in Mobile.
-THOROUGH_RUNNERS=(export_package stereo_forward_plus)
+# Zig; what runs under sanitizers needs a build of its own; and two eyes see in Forward+ what they see in Mobile.
+THOROUGH_RUNNERS=(export_package cpp_sanitized fuzz stereo_forward_plus)
 
 # C++ tests that take more than ten seconds each.
-THOROUGH_CPP='No step of the largest tables|A fit needs no more memory than the formula'
+THOROUGH_CPP='No step of the largest tables|A fit needs no more memory than the formula|in all ways, stop soon|Long highlights are drawn no worse'
 
 # jobs_of_groups GROUP…: prints the runners of these groups, one a line.
 jobs_of_groups() {
