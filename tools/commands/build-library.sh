@@ -6,7 +6,7 @@ usage() {
   cat <<'USAGE'
 usage: ./dev build-library --vcpkg DIR
 
-DIR is a clone of vcpkg. It builds what gdextension/vcpkg.json names, godot-cpp's sources among it; CMake then builds the
+DIR is a clone of vcpkg. It builds what gdextension/vcpkg.json names, godot-cpp among it; CMake then builds the
 library, in build/system, and installs it in addons/lobelight/bin. It needs git, CMake 3.22 and Python 3, and Ninja with GCC
 or Clang on Linux, Xcode's tools on macOS, Visual Studio 2022 with its Clang on Windows.
 
@@ -76,8 +76,7 @@ mkdir -p "$ROOT/build"
 [[ -z ${VCPKG_DEFAULT_BINARY_CACHE:-} ]] || mkdir -p "$VCPKG_DEFAULT_BINARY_CACHE"
 touch "$ROOT/build/.gdignore"
 cmake -S "$root/gdextension" -B "$build" "${options[@]}" -DCMAKE_TOOLCHAIN_FILE="$vcpkg/$toolchain" \
-  -DVCPKG_TARGET_TRIPLET="$triplet" -DVCPKG_INSTALLED_DIR="$build/packages" \
-  -DGODOT_CPP_SOURCE_DIR="$build/packages/$triplet/share/godot-cpp/source"
+  -DVCPKG_TARGET_TRIPLET="$triplet" -DVCPKG_INSTALLED_DIR="$build/packages"
 cmake --build "$build" --config Release --target lobelight_library --parallel
 cmake --install "$build" --config Release
 say "The library is in addons/lobelight/bin."
