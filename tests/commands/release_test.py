@@ -221,9 +221,12 @@ class ReleaseTest(unittest.TestCase):
 
     def test_a_missing_licence_is_named(self):
         rule = checks.licences.RULE
-        text = f"{rule}\nGLM\n{rule}\n\n{'x' * checks.LEAST_LICENCE}\n"
+        long = "x" * checks.LEAST_LICENCE
+        # With a heading of its own, as LLVM's has.
+        text = f"{rule}\nGLM\n{rule}\n\n{rule}\nIts own heading\n{rule}\n{long}\n{rule}\nOpenEXR\n{rule}\n\n"
         lacking = checks.missing_licences(text, "x.zip")
         self.assertIn("x.zip: bin/LICENCES.txt lacks the licence of Imath", lacking)
+        self.assertIn("x.zip: bin/LICENCES.txt lacks the licence of OpenEXR", lacking)
         self.assertFalse([line for line in lacking if line.endswith("GLM")])
 
     def test_libraries_are_told_apart(self):

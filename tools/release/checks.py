@@ -133,15 +133,18 @@ def packed(file, version, targets):
 
 def missing_licences(text, file):
     """Of all that is linked into the libraries."""
-    blocks = re.split(rf"^{licences.RULE}\n(.+)\n{licences.RULE}$", text, flags=re.MULTILINE)
-    found = dict(zip(blocks[1::2], blocks[2::2], strict=True))
     names = ["Lobelight", "GLM", "Godot Engine, its extension interface"]
     names += [source[0] for source in [*licences.SOURCES, *licences.FROM_ZIG]]
-    return [
-        f"{file}: {package.LICENCES} lacks the licence of {name}"
-        for name in names
-        if len(found.get(name, "").strip()) < LEAST_LICENCE
-    ]
+    # Licences have such rules of their own: only the headings that are looked for count.
+    headings = {name: f"{licences.RULE}\n{name}\n{licences.RULE}\n" for name in names}
+    starts = sorted(text.find(heading) for heading in headings.values())
+    lacking = []
+    for name, heading in headings.items():
+        start = text.find(heading)
+        end = next((other for other in starts if other > start), len(text))
+        if start < 0 or len(text[start + len(heading) : end].strip()) < LEAST_LICENCE:
+            lacking.append(f"{file}: {package.LICENCES} lacks the licence of {name}")
+    return lacking
 
 
 def is_library(data, target):
