@@ -71,7 +71,8 @@ LEAST_SHARE_GONE = 0.8
 SIDE = 128
 # Rendering methods and their drivers. What materials are is the same in all, and told by the first that draws them.
 RENDERERS = {"mobile": "vulkan", "forward_plus": "vulkan", "gl_compatibility": "opengl3"}
-# What others than Compatibility draw with --quick: one scene of each part of the run time that is for the rendering device.
+# What others than Compatibility draw with --quick: scenes of frozen materials, of materials that scripts change, and of everything.
+# Rooms are drawn without it, and in Mobile by tests/render.
 QUICK = {"mobile": ("isotropic", "by_script", "everything"), "forward_plus": ()}
 COMPLAINT = re.compile(r"(^|\s)(SCRIPT |USER )?(ERROR|WARNING)(:|\s)|handle_crash|leaked at exit", re.MULTILINE)
 # What the engine says in Compatibility wherever the driver draws in memory, and of a sky that another one follows.
